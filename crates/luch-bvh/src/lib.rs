@@ -1,0 +1,1 @@
+//! Rays, boxes and a tree over anything that has a box

@@ -1,0 +1,1 @@
+//! Scene, mesh and image files to values and back

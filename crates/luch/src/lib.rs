@@ -1,0 +1,1 @@
+//! A renderer, a Monte Carlo laboratory and a mesh workshop: the facade
