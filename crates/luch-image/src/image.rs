@@ -46,7 +46,12 @@ impl<P> Image<P> {
     /// # Panics
     /// If the place is outside the image.
     pub fn get(&self, x: u32, y: u32) -> &P {
-        assert!(x < self.width && y < self.height, "pixel ({x}, {y}) is outside {}×{}", self.width, self.height);
+        assert!(
+            x < self.width && y < self.height,
+            "pixel ({x}, {y}) is outside {}×{}",
+            self.width,
+            self.height
+        );
         &self.pixels[y as usize * self.width as usize + x as usize]
     }
 

@@ -40,3 +40,8 @@ pub mod tone;
 pub use bitmap::{Bitmap, Encoding, Pixels};
 pub use image::Image;
 pub use rgb::Rgb;
+
+/// The README's example, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExample;

@@ -27,9 +27,9 @@ impl<T: Copy> Attribute<T> {
         Self { values, triangles: Vec::new() }
     }
 
-    /// Values with corner indices of their own.
+    /// Values with corner indices of their own. Without triangles there are no values either.
     pub fn indexed(values: Vec<T>, triangles: Vec<[u32; 3]>) -> Self {
-        Self { values, triangles }
+        if triangles.is_empty() { Self::default() } else { Self { values, triangles } }
     }
 
     /// True if the mesh has no such attribute.
@@ -44,6 +44,11 @@ impl<T: Copy> Attribute<T> {
         }
         let indices = if self.triangles.is_empty() { positions } else { self.triangles[triangle] };
         Some(indices.map(|i| self.values[i as usize]))
+    }
+
+    /// The index set in force: its own, or else that of the positions.
+    pub fn corner_indices<'a>(&'a self, positions: &'a [[u32; 3]]) -> &'a [[u32; 3]] {
+        if self.triangles.is_empty() { positions } else { &self.triangles }
     }
 }
 
@@ -85,6 +90,11 @@ impl TriangleMesh {
     /// The three texture coordinates of a triangle in uv set `set`, if the mesh has that set.
     pub fn corner_uvs(&self, triangle: usize, set: usize) -> Option<[Vec2; 3]> {
         self.uv_sets.get(set)?.corners(triangle, self.triangles[triangle])
+    }
+
+    /// The smallest box around all triangles; see [`crate::measure::bounds`].
+    pub fn bounds(&self) -> luch_bvh::Aabb {
+        crate::measure::bounds(self)
     }
 
     /// The material slot of a triangle.

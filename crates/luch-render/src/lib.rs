@@ -1,1 +1,4 @@
 //! Progressive, deterministic light transport
+
+pub mod bsdf;
+pub use bsdf::{Bsdf, BsdfSample};

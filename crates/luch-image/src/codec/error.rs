@@ -8,7 +8,10 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum DecodeError {
     /// The first bytes are those of no known format.
-    #[error("byte 0: the file starts with {start}, which is no image format known here ({})", Format::names())]
+    #[error(
+        "byte 0: the file starts with {start}, which is no image format known here ({})",
+        Format::names()
+    )]
     UnknownFormat {
         /// The first bytes, printable.
         start: String,
@@ -22,7 +25,10 @@ pub enum DecodeError {
         what: String,
     },
     /// The file claims more than may be decoded.
-    #[error("{format}: the file claims {width}×{height} pixels in {channels} channels; at most {} pixels in 4 channels (or fewer in more) are decoded", super::MAX_PIXELS)]
+    #[error(
+        "{format}: the file claims {width}×{height} pixels in {channels} channels; at most {} pixels in 4 channels (or fewer in more) are decoded",
+        super::MAX_PIXELS
+    )]
     TooLarge {
         /// The format.
         format: Format,
@@ -114,7 +120,11 @@ impl EncodeError {
     /// Passes pictures whose sides are 1 to `limit`.
     pub(super) fn check_size(format: Format, width: u32, height: u32, limit: u32) -> Result<(), Self> {
         let fits = |side: u32| (1..=limit).contains(&side);
-        if fits(width) && fits(height) { Ok(()) } else { Err(EncodeError::Size { format, width, height, limit }) }
+        if fits(width) && fits(height) {
+            Ok(())
+        } else {
+            Err(EncodeError::Size { format, width, height, limit })
+        }
     }
 }
 

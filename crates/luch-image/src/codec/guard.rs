@@ -35,8 +35,8 @@ pub(super) fn check_size(
 
 /// Runs a third-party decoder; a panic inside it becomes an error.
 ///
-/// The decoders mean to return errors, yet each has had panics on fuzzed files (index and overflow checks), and a
-/// broken texture must not end a render. They work on borrowed bytes and own what they build, so nothing half-made
+/// The decoders return errors for what they foresee, yet they hold assertions and plain indexing too, and a broken
+/// texture must not end a render. They work on borrowed bytes and own what they build, so nothing half-made
 /// outlives the panic.
 pub(super) fn guarded<T>(
     format: Format,

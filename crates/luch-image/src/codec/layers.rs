@@ -26,8 +26,11 @@ impl Layer {
     /// A layer of the channels `R`, `G`, `B`.
     pub fn from_rgb(name: impl Into<String>, image: &Image<Rgb>) -> Self {
         let plane = |channel: fn(&Rgb) -> f32| image.pixels().iter().map(channel).collect();
-        let channels =
-            vec![("R".to_owned(), plane(|p| p.r)), ("G".to_owned(), plane(|p| p.g)), ("B".to_owned(), plane(|p| p.b))];
+        let channels = vec![
+            ("R".to_owned(), plane(|p| p.r)),
+            ("G".to_owned(), plane(|p| p.g)),
+            ("B".to_owned(), plane(|p| p.b)),
+        ];
         Self { name: name.into(), channels }
     }
 

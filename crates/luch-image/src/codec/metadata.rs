@@ -1,6 +1,6 @@
 //! Texts that travel with a picture.
 
-use super::{EncodeError, Format};
+use super::{DecodeError, EncodeError, Format};
 
 /// Keys with their texts, in order, each key once.
 ///
@@ -64,6 +64,41 @@ impl Metadata {
             }
         }
         Ok(())
+    }
+}
+
+/// Texts as they are read from a file that may be hostile.
+pub(super) struct Reading {
+    format: Format,
+    metadata: Metadata,
+    bytes: usize,
+}
+
+/// Most texts of a file, and most bytes of all of them (compressed texts may grow a thousandfold).
+const MOST_TEXTS: usize = 4096;
+const MOST_BYTES: usize = 64 << 20;
+
+impl Reading {
+    /// Nothing read yet.
+    pub(super) fn new(format: Format) -> Self {
+        Self { format, metadata: Metadata::new(), bytes: 0 }
+    }
+
+    /// One more text; one of a known key replaces it.
+    pub(super) fn add(&mut self, key: &str, value: impl Into<String>) -> Result<(), DecodeError> {
+        let value = value.into();
+        self.bytes += key.len() + value.len();
+        self.metadata.set(key, value);
+        if self.metadata.len() > MOST_TEXTS || self.bytes > MOST_BYTES {
+            let what = format!("metadata of more than {MOST_TEXTS} texts or {} MiB", MOST_BYTES >> 20);
+            return Err(DecodeError::unsupported(self.format, what));
+        }
+        Ok(())
+    }
+
+    /// All that was read.
+    pub(super) fn finish(self) -> Metadata {
+        self.metadata
     }
 }
 

@@ -14,22 +14,48 @@ const PIXELS_PER_BYTE: u64 = 1024;
 
 /// A Windows bitmap.
 pub(super) fn decode_bmp(bytes: &[u8]) -> Result<Bitmap, DecodeError> {
-    decode_with(bytes, Format::Bmp, BmpDecoder::new)
+    guarded(Format::Bmp, || {
+        let position = Cell::new(0);
+        let decoder = BmpDecoder::new(Tracked::new(bytes, &position));
+        read(Format::Bmp, decoder, bytes.len(), PIXELS_PER_BYTE, &position)
+    })
 }
 
 /// A Truevision TGA.
 pub(super) fn decode_tga(bytes: &[u8]) -> Result<Bitmap, DecodeError> {
-    decode_with(bytes, Format::Tga, TgaDecoder::new)
+    guarded(Format::Tga, || {
+        let position = Cell::new(0);
+        let decoder = TgaDecoder::new(Tracked::new(bytes, &position));
+        read(Format::Tga, decoder, bytes.len(), PIXELS_PER_BYTE, &position)
+    })
 }
 
-fn decode_with<'a, D: ImageDecoder>(
-    bytes: &'a [u8],
+/// All pixels of an opened file of eight bits a channel.
+pub(super) fn read(
     format: Format,
-    open: impl FnOnce(Tracked<'a>) -> ImageResult<D>,
+    decoder: ImageResult<impl ImageDecoder>,
+    file_size: usize,
+    pixels_per_byte: u64,
+    position: &Cell<u64>,
 ) -> Result<Bitmap, DecodeError> {
-    // The decoder borrows the position for as long as the bytes, so it is given away once for each file.
-    guarded(format, || {
-        let position: &Cell<u64> = &Cell::new(0);
-        decode_tracked(bytes, position, format, open)
-    })
+    let describe = |error| describe(format, error, position.get());
+    let decoder = decoder.map_err(describe)?;
+    let (width, height) = decoder.dimensions();
+    let color = decoder.color_type();
+    let channels = color.channel_count();
+    check_size(format, width.into(), height.into(), channels.into(), file_size, pixels_per_byte)?;
+    if !matches!(color, ColorType::L8 | ColorType::La8 | ColorType::Rgb8 | ColorType::Rgba8) {
+        return Err(DecodeError::unsupported(format, format!("a picture of kind {color:?}")));
+    }
+    let mut stored = vec![0; width as usize * height as usize * usize::from(channels)];
+    decoder.read_image(&mut stored).map_err(describe)?;
+    let pixels = Pixels::U8(spread(&stored, channels.into(), u8::MAX));
+    Ok(Bitmap { width, height, pixels, encoding: Encoding::Srgb, has_alpha: color.has_alpha() })
+}
+
+fn describe(format: Format, error: ImageError, position: u64) -> DecodeError {
+    match error {
+        ImageError::Unsupported(what) => DecodeError::unsupported(format, what.to_string()),
+        other => DecodeError::Damaged { format, offset: Some(position), reason: other.to_string() },
+    }
 }

@@ -1,9 +1,13 @@
 //! PNG through the `png` crate (W3C Portable Network Graphics, third edition).
 
 use super::guard::{Tracked, check_size, guarded};
+use super::metadata::Reading;
 use super::{DecodeError, EncodeError, Format, Metadata};
 use crate::{Bitmap, Encoding, Image, Pixels};
-use ::png::{BitDepth, ColorType, Decoder, DecodingError, Encoder, Info, Limits, Reader, SrgbRenderingIntent, Transformations};
+use ::png::{
+    BitDepth, ColorType, Decoder, DecodingError, Encoder, Info, Limits, Reader, SrgbRenderingIntent,
+    Transformations,
+};
 use std::cell::Cell;
 
 /// Deflate codes at most 1032 bytes in one (zlib technical details), a byte holds at most eight pixels.
@@ -22,8 +26,13 @@ fn describe(error: DecodingError, position: u64) -> DecodeError {
     DecodeError::Damaged { format: Format::Png, offset: Some(position), reason }
 }
 
-fn open<'a>(bytes: &'a [u8], position: &'a Cell<u64>) -> Result<Reader<Tracked<'a>>, DecodeError> {
+fn open<'a>(
+    bytes: &'a [u8],
+    position: &'a Cell<u64>,
+    with_texts: bool,
+) -> Result<Reader<Tracked<'a>>, DecodeError> {
     let mut decoder = Decoder::new_with_limits(Tracked::new(bytes, position), Limits { bytes: WORK_BYTES });
+    decoder.set_ignore_text_chunk(!with_texts);
     decoder.set_transformations(Transformations::EXPAND);
     decoder.read_info().map_err(|error| describe(error, position.get()))
 }
@@ -32,7 +41,7 @@ fn open<'a>(bytes: &'a [u8], position: &'a Cell<u64>) -> Result<Reader<Tracked<'
 pub(super) fn decode(bytes: &[u8]) -> Result<Bitmap, DecodeError> {
     guarded(Format::Png, || {
         let position = Cell::new(0);
-        let mut reader = open(bytes, &position)?;
+        let mut reader = open(bytes, &position, false)?;
         let (width, height) = reader.info().size();
         check_size(Format::Png, width.into(), height.into(), 4, bytes.len(), PIXELS_PER_BYTE)?;
         let size = reader.output_buffer_size().ok_or(DecodeError::TooLarge {
@@ -46,7 +55,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Bitmap, DecodeError> {
         let (color, depth) = reader.output_color_type();
         let pixels = match depth {
             BitDepth::Sixteen => {
-                let numbers: Vec<u16> = stored.as_chunks().0.iter().map(|&pair| u16::from_be_bytes(pair)).collect();
+                let numbers: Vec<u16> =
+                    stored.as_chunks().0.iter().map(|&pair| u16::from_be_bytes(pair)).collect();
                 Pixels::U16(spread(&numbers, color.samples(), u16::MAX))
             }
             _ => Pixels::U8(spread(&stored, color.samples(), u8::MAX)),
@@ -75,20 +85,20 @@ fn encoding(info: &Info) -> Encoding {
 pub(super) fn read_metadata(bytes: &[u8]) -> Result<Metadata, DecodeError> {
     guarded(Format::Png, || {
         let position = Cell::new(0);
-        let mut reader = open(bytes, &position)?;
+        let mut reader = open(bytes, &position, true)?;
         reader.finish().map_err(|error| describe(error, position.get()))?;
         let info = reader.info();
-        let mut metadata = Metadata::new();
+        let mut texts = Reading::new(Format::Png);
         for chunk in &info.uncompressed_latin1_text {
-            metadata.set(&*chunk.keyword, &*chunk.text);
+            texts.add(&chunk.keyword, &*chunk.text)?;
         }
         for chunk in &info.compressed_latin1_text {
-            metadata.set(&*chunk.keyword, chunk.get_text().map_err(|error| describe(error, position.get()))?);
+            texts.add(&chunk.keyword, chunk.get_text().map_err(|error| describe(error, position.get()))?)?;
         }
         for chunk in &info.utf8_text {
-            metadata.set(&*chunk.keyword, chunk.get_text().map_err(|error| describe(error, position.get()))?);
+            texts.add(&chunk.keyword, chunk.get_text().map_err(|error| describe(error, position.get()))?)?;
         }
-        Ok(metadata)
+        Ok(texts.finish())
     })
 }
 
@@ -109,9 +119,15 @@ pub fn encode_png16(image: &Image<[u16; 3]>, metadata: &Metadata) -> Result<Vec<
     encode(image.width(), image.height(), BitDepth::Sixteen, &bytes, metadata)
 }
 
-fn encode(width: u32, height: u32, depth: BitDepth, data: &[u8], metadata: &Metadata) -> Result<Vec<u8>, EncodeError> {
+fn encode(
+    width: u32,
+    height: u32,
+    depth: BitDepth,
+    data: &[u8],
+    metadata: &Metadata,
+) -> Result<Vec<u8>, EncodeError> {
     EncodeError::check_size(Format::Png, width, height, i32::MAX as u32)?;
-    // A text longer than the reader's working memory could not be read back.
+    // What is longer could not be read back in the reader's working memory.
     metadata.check(Format::Png, WORK_BYTES / 4)?;
     let refuse = |error: ::png::EncodingError| EncodeError::refused(Format::Png, error);
     let mut bytes = Vec::new();

@@ -1,0 +1,249 @@
+//! Two levels of trees: geometries, and where copies of them stand in the world.
+//!
+//! A ray is taken into the space of an instance by the inverse of its placement. The direction is not made a unit vector
+//! there, so `t` means the same in both spaces.
+//!
+//! The theorem of [`slab`](crate::slab) holds on both levels. The *hit of an instance* is the nearest accepted hit of its
+//! geometry, its `t` clamped into the interval of the instance's own world box, and the least `(t, instance)` wins. Inside
+//! the geometry the best hit so far may prune only while the far end of that interval lies beyond it: then a hit that is
+//! pruned stays behind the best one when clamped. Otherwise clamping may pull it forward, so nothing is pruned.
+
+mod geometry;
+mod placed;
+
+pub use geometry::Geometry;
+use placed::Placed;
+
+use crate::build::Quality;
+use crate::tree::{Stack, bound_inside};
+use crate::{Aabb, Bvh, Coherence, Hit, Interval, Ray, SlabRay};
+use glam::Affine3A;
+
+/// One copy of a geometry in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instance {
+    /// Which geometry, as an index into the list given to [`SceneTree::build`].
+    pub geometry: u32,
+    /// From the space of the geometry into the world. A map that cannot be inverted makes an instance that is never hit.
+    pub placement: Affine3A,
+    /// Whether rays pass through faces from behind. Judged in the space of the geometry, so a mirrored copy keeps its outside.
+    pub cull_back: bool,
+    /// Whether the filter of [`SceneTree::nearest_filtered`] and [`SceneTree::any_filtered`] is asked about its hits.
+    pub filtered: bool,
+}
+
+/// A ray meets an instance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InstanceHit {
+    /// Index of the instance as it was given to the build.
+    pub instance: u32,
+    /// Where, within its geometry; `t` counts along the world ray. Shapes have the one primitive 0.
+    pub hit: Hit,
+}
+
+/// Geometries, their instances and a tree over the world boxes of these.
+#[derive(Clone, Debug)]
+pub struct SceneTree {
+    geometries: Vec<Geometry>,
+    /// By instance; `None` for one that is never hit.
+    placed: Vec<Option<Placed>>,
+    /// Over the instances that have a box.
+    tree: Bvh,
+    /// Indices of the instances without one, always tested.
+    unbounded: Vec<u32>,
+}
+
+/// One stack for each level.
+struct Stacks {
+    world: Stack,
+    object: Stack,
+}
+
+impl Stacks {
+    fn new() -> Self {
+        Self { world: Stack::new(), object: Stack::new() }
+    }
+}
+
+impl SceneTree {
+    /// Builds the tree over instances. An instance whose geometry is not in the list is never hit.
+    pub fn build(geometries: Vec<Geometry>, instances: &[Instance], quality: Quality) -> Self {
+        let place = |instance: &Instance| Placed::new(instance, geometries.get(instance.geometry as usize)?);
+        let placed: Vec<_> = instances.iter().map(place).collect();
+        let bounds = |placed: &Option<Placed>| placed.as_ref().and_then(|placed| placed.bounds);
+        let boxes: Vec<_> = placed.iter().map(|placed| bounds(placed).unwrap_or(Aabb::empty())).collect();
+        let is_unbounded =
+            |placed: &Option<Placed>| placed.as_ref().is_some_and(|placed| placed.bounds.is_none());
+        let numbered = (0..u32::MAX).zip(&placed);
+        let unbounded = numbered.filter(|(_, placed)| is_unbounded(placed)).map(|(index, _)| index).collect();
+        Self { tree: Bvh::build(&boxes, quality), geometries, placed, unbounded }
+    }
+
+    /// The geometries as they were given.
+    pub fn geometries(&self) -> &[Geometry] {
+        &self.geometries
+    }
+
+    /// The box of all instances that have one.
+    pub fn bounds(&self) -> Aabb {
+        self.tree.bounds()
+    }
+
+    /// The nearest hit; of equally near ones that of the lowest instance, then of the lowest primitive.
+    pub fn nearest(&self, ray: &Ray) -> Option<InstanceHit> {
+        self.search(ray, &mut Stacks::new(), |_| true)
+    }
+
+    /// The nearest hit that counts. Hits of instances that are not `filtered` all do; of the others those do for which
+    /// `filter` is true, and the ray goes on through the rest. `filter` must be a pure function of the hit: it may be asked
+    /// about any, in any order.
+    pub fn nearest_filtered(
+        &self,
+        ray: &Ray,
+        filter: impl FnMut(&InstanceHit) -> bool,
+    ) -> Option<InstanceHit> {
+        self.search(ray, &mut Stacks::new(), filter)
+    }
+
+    /// Whether the ray meets anything.
+    pub fn any(&self, ray: &Ray) -> bool {
+        self.meets(ray, &mut Stacks::new(), |_| true)
+    }
+
+    /// Whether the ray meets anything that counts; `filter` as in [`SceneTree::nearest_filtered`].
+    pub fn any_filtered(&self, ray: &Ray, filter: impl FnMut(&InstanceHit) -> bool) -> bool {
+        self.meets(ray, &mut Stacks::new(), filter)
+    }
+
+    /// [`SceneTree::nearest`] of each ray, into the place of the same index; on the calling thread. Where the slices differ
+    /// in length the rest of the longer one is left alone.
+    pub fn nearest_batch(&self, rays: &[Ray], hits: &mut [Option<InstanceHit>], coherence: Coherence) {
+        self.nearest_filtered_batch(rays, hits, coherence, |_, _| true);
+    }
+
+    /// [`SceneTree::any`] of each ray; as [`SceneTree::nearest_batch`].
+    pub fn any_batch(&self, rays: &[Ray], met: &mut [bool], coherence: Coherence) {
+        self.any_filtered_batch(rays, met, coherence, |_, _| true);
+    }
+
+    /// [`SceneTree::nearest_filtered`] of each ray; the filter is also told the index of the ray.
+    pub fn nearest_filtered_batch(
+        &self,
+        rays: &[Ray],
+        hits: &mut [Option<InstanceHit>],
+        _coherence: Coherence,
+        mut filter: impl FnMut(usize, &InstanceHit) -> bool,
+    ) {
+        let mut stacks = Stacks::new();
+        for (index, (ray, hit)) in rays.iter().zip(hits).enumerate() {
+            *hit = self.search(ray, &mut stacks, |hit| filter(index, hit));
+        }
+    }
+
+    /// [`SceneTree::any_filtered`] of each ray; the filter is also told the index of the ray.
+    pub fn any_filtered_batch(
+        &self,
+        rays: &[Ray],
+        met: &mut [bool],
+        _coherence: Coherence,
+        mut filter: impl FnMut(usize, &InstanceHit) -> bool,
+    ) {
+        let mut stacks = Stacks::new();
+        for (index, (ray, met)) in rays.iter().zip(met).enumerate() {
+            *met = self.meets(ray, &mut stacks, |hit| filter(index, hit));
+        }
+    }
+
+    fn search(
+        &self,
+        ray: &Ray,
+        stacks: &mut Stacks,
+        mut filter: impl FnMut(&InstanceHit) -> bool,
+    ) -> Option<InstanceHit> {
+        let slab = SlabRay::new(ray)?;
+        let mut bound = slab.t_max;
+        let mut best: Option<InstanceHit> = None;
+        let whole = Interval { near: slab.t_min, far: slab.t_max };
+        let Stacks { world, object } = stacks;
+        let mut visit = |instance: u32, interval: Interval, mut bound: f32| {
+            if let Some(hit) = self.instance_hit(instance, ray, interval, bound, object, &mut filter)
+                && hit.precedes(best.as_ref(), bound)
+            {
+                bound = hit.hit.t;
+                best = Some(hit);
+            }
+            bound
+        };
+        for &instance in &self.unbounded {
+            bound = visit(instance, whole, bound);
+        }
+        self.tree.visit(&slab, bound, world, |place, bound| {
+            match slab.interval(self.tree.bounds_at(place)) {
+                Some(interval) if interval.near <= bound => {
+                    visit(self.tree.primitive(place), interval, bound)
+                }
+                _ => bound,
+            }
+        });
+        best
+    }
+
+    /// The hit of one instance unless it lies beyond `bound`.
+    #[inline(always)]
+    fn instance_hit(
+        &self,
+        instance: u32,
+        ray: &Ray,
+        interval: Interval,
+        bound: f32,
+        stack: &mut Stack,
+        filter: &mut impl FnMut(&InstanceHit) -> bool,
+    ) -> Option<InstanceHit> {
+        let placed = self.placed[instance as usize].as_ref()?;
+        let geometry = &self.geometries[placed.geometry as usize];
+        let of_world = |hit: &Hit| InstanceHit { instance, hit: Hit { t: interval.clamp(hit.t), ..*hit } };
+        let ray = placed.into_object(ray);
+        let bound = bound_inside(&interval, bound);
+        let hit = geometry
+            .nearest(&ray, bound, stack, placed.cull_back, |hit| !placed.filtered || filter(&of_world(hit)));
+        hit.map(|hit| of_world(&hit))
+    }
+
+    fn meets(&self, ray: &Ray, stacks: &mut Stacks, mut filter: impl FnMut(&InstanceHit) -> bool) -> bool {
+        let Some(slab) = SlabRay::new(ray) else { return false };
+        let Stacks { world, object } = stacks;
+        let whole = Interval { near: slab.t_min, far: slab.t_max };
+        let mut met = |instance: u32, interval: Interval| {
+            let Some(placed) = self.placed[instance as usize].as_ref() else { return false };
+            let geometry = &self.geometries[placed.geometry as usize];
+            let ray = placed.into_object(ray);
+            geometry.any(&ray, object, placed.cull_back, |hit| {
+                let of_world = InstanceHit { instance, hit: Hit { t: interval.clamp(hit.t), ..*hit } };
+                !placed.filtered || filter(&of_world)
+            })
+        };
+        if self.unbounded.iter().any(|&instance| met(instance, whole)) {
+            return true;
+        }
+        let mut found = false;
+        self.tree.visit(&slab, slab.t_max, world, |place, bound| {
+            if !found && let Some(interval) = slab.interval(self.tree.bounds_at(place)) {
+                found = met(self.tree.primitive(place), interval);
+            }
+            if found { f32::NEG_INFINITY } else { bound }
+        });
+        found
+    }
+}
+
+impl InstanceHit {
+    /// Whether this hit comes before the best one so far, by `(t, instance)`; without one, at or before `bound`.
+    fn precedes(&self, best: Option<&Self>, bound: f32) -> bool {
+        match best {
+            Some(best) => {
+                self.hit.t < best.hit.t || (self.hit.t == best.hit.t && self.instance < best.instance)
+            }
+            None => self.hit.t <= bound,
+        }
+    }
+}
