@@ -50,16 +50,27 @@ pub(crate) fn load(path: &Path, files: &Files, format: Format) -> Result<Loaded,
 }
 
 /// Reads a mesh of any format; one without normals gets them by the crease angle.
-pub(crate) fn read(path: &Path, files: &Files, warnings: &mut Vec<Warning>) -> Result<TriangleMesh, LoadError> {
+pub(crate) fn read(
+    path: &Path,
+    files: &Files,
+    warnings: &mut Vec<Warning>,
+) -> Result<TriangleMesh, LoadError> {
     let bytes = files.read(path)?;
     let by_name = path.extension().and_then(|e| e.to_str()).and_then(Format::from_extension);
-    let unknown = || Problem::new(path, "is no mesh file").help("accepted are .obj, .ply, .stl; whole scenes are imported");
+    let unknown = || {
+        Problem::new(path, "is no mesh file").help("accepted are .obj, .ply, .stl; whole scenes are imported")
+    };
     let format = by_name.or_else(|| Format::from_magic(&bytes)).ok_or_else(unknown)?;
     let mesh = decode(path, &bytes, format, warnings)?;
     Ok(with_normals(mesh).0)
 }
 
-fn decode(path: &Path, bytes: &[u8], format: Format, warnings: &mut Vec<Warning>) -> Result<TriangleMesh, LoadError> {
+fn decode(
+    path: &Path,
+    bytes: &[u8],
+    format: Format,
+    warnings: &mut Vec<Warning>,
+) -> Result<TriangleMesh, LoadError> {
     let decoded = codec::decode(bytes, format).map_err(|error| problem(path, bytes, &error))?;
     warnings.extend(decoded.warnings.iter().map(|warning| told(path, bytes, warning)));
     checked(path, decoded.mesh)

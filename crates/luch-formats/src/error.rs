@@ -68,7 +68,8 @@ impl fmt::Display for Problem {
                 let number = line.to_string();
                 let (shown, column) = window(source, *column);
                 let margin = " ".repeat(number.len());
-                let mark = "^".repeat((*length).clamp(1, (shown.chars().count() + 2).saturating_sub(column).max(1)));
+                let mark =
+                    "^".repeat((*length).clamp(1, (shown.chars().count() + 2).saturating_sub(column).max(1)));
                 write!(f, "\n {number} | {shown}\n {margin} | {}{mark}", " ".repeat(column - 1))?;
             }
         }

@@ -46,7 +46,10 @@ impl Files {
             return Err(Problem::new(path, "is not a plain file"));
         }
         if about.len() > LARGEST_FILE {
-            return Err(Problem::new(path, format!("has {} bytes, at most {LARGEST_FILE} are read", about.len())));
+            return Err(Problem::new(
+                path,
+                format!("has {} bytes, at most {LARGEST_FILE} are read", about.len()),
+            ));
         }
         let mut bytes = Vec::with_capacity(about.len() as usize);
         std::fs::File::open(path).map_err(fail)?.take(LARGEST_FILE).read_to_end(&mut bytes).map_err(fail)?;

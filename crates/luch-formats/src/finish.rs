@@ -25,7 +25,9 @@ pub(crate) fn finish(path: &Path, mut loaded: Loaded) -> Result<Loaded, LoadErro
     if problems.is_empty() {
         Ok(loaded)
     } else {
-        Err(LoadError { problems: problems.into_iter().map(|sentence| Problem::new(path, sentence)).collect() })
+        Err(LoadError {
+            problems: problems.into_iter().map(|sentence| Problem::new(path, sentence)).collect(),
+        })
     }
 }
 

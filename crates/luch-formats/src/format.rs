@@ -1,7 +1,7 @@
 //! Which format a file is of, and who reads it.
 
-use crate::{Files, LoadError, Loaded, Problem};
 use crate::resolve::{self, Imports};
+use crate::{Files, LoadError, Loaded, Problem};
 use crate::{bare_mesh, gltf, obj_scene};
 use luch_mesh::codec::Format as MeshFormat;
 use std::path::Path;
@@ -61,7 +61,8 @@ impl SceneFormat {
 
     /// All extensions with their dots, for messages.
     pub fn accepted() -> String {
-        let all: Vec<String> = Self::ALL.iter().flat_map(|f| f.extensions()).map(|e| format!(".{e}")).collect();
+        let all: Vec<String> =
+            Self::ALL.iter().flat_map(|f| f.extensions()).map(|e| format!(".{e}")).collect();
         all.join(", ")
     }
 }
@@ -69,7 +70,9 @@ impl SceneFormat {
 /// True if one of the first lines is `luch` and a number.
 fn has_version_line(bytes: &[u8]) -> bool {
     let mut lines = bytes.split(|&b| b == b'\n').take(100).map(<[u8]>::trim_ascii);
-    lines.any(|line| line.strip_prefix(b"luch").is_some_and(|rest| rest.first().is_some_and(u8::is_ascii_whitespace)))
+    lines.any(|line| {
+        line.strip_prefix(b"luch").is_some_and(|rest| rest.first().is_some_and(u8::is_ascii_whitespace))
+    })
 }
 
 /// Reads a file as it is: no camera or light is added, and problems of the scene are not looked for. `imports` are the
@@ -81,7 +84,8 @@ pub(crate) fn read(path: &Path, files: &Files, imports: &mut Imports) -> Result<
             let bytes = files.read(path)?;
             let accepted = SceneFormat::accepted();
             let unknown = Problem::new(path, "is of no format that is known here");
-            SceneFormat::from_content(&bytes).ok_or_else(|| unknown.help(format!("accepted are {accepted}")))?
+            SceneFormat::from_content(&bytes)
+                .ok_or_else(|| unknown.help(format!("accepted are {accepted}")))?
         }
     };
     match format {

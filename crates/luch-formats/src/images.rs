@@ -24,7 +24,12 @@ impl<'a> Images<'a> {
     }
 
     /// The picture at `path`, added to `scene` if it is new; `None`, and one warning, if it cannot be had.
-    pub(crate) fn load(&mut self, path: &Path, scene: &mut Scene, warnings: &mut Vec<Warning>) -> Option<Id<Bitmap>> {
+    pub(crate) fn load(
+        &mut self,
+        path: &Path,
+        scene: &mut Scene,
+        warnings: &mut Vec<Warning>,
+    ) -> Option<Id<Bitmap>> {
         if let Some(&known) = self.known.get(path) {
             return known;
         }
@@ -44,11 +49,14 @@ impl<'a> Images<'a> {
         // The content tells; TGA alone has no mark, so there the extension helps.
         let by_name = || path.extension().and_then(|e| e.to_str()).and_then(Format::from_extension);
         let format = Format::from_magic(&bytes).or_else(by_name);
-        let mut image =
-            codec::decode(&bytes, format).map_err(|error| Warning::new(path, format!("is no picture: {error}")))?;
+        let mut image = codec::decode(&bytes, format)
+            .map_err(|error| Warning::new(path, format!("is no picture: {error}")))?;
         self.pixels += u64::from(image.width) * u64::from(image.height);
         if self.pixels > MOST_PIXELS {
-            return Err(Warning::new(path, format!("the pictures have more than {MOST_PIXELS} pixels together")));
+            return Err(Warning::new(
+                path,
+                format!("the pictures have more than {MOST_PIXELS} pixels together"),
+            ));
         }
         let put_right = make_light(&mut image);
         if put_right > 0 {

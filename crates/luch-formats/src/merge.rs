@@ -23,7 +23,10 @@ pub(crate) fn check_size(scene: &Scene, other: &Scene, is_known: bool) -> Result
     let owned = |s: &Scene| s.materials.len().max(s.textures.len()).max(s.shapes.len()).max(s.images.len());
     let pixels = |s: &Scene| s.images.iter().map(|i| u64::from(i.width) * u64::from(i.height)).sum::<u64>();
     let triangles = |s: &Scene| {
-        s.shapes.iter().map(|shape| if let Shape::Mesh(mesh) = shape { mesh.triangles.len() } else { 0 }).sum::<usize>()
+        s.shapes
+            .iter()
+            .map(|shape| if let Shape::Mesh(mesh) = shape { mesh.triangles.len() } else { 0 })
+            .sum::<usize>()
     };
     if placed(scene) + placed(other) > MOST_THINGS {
         return Err(format!("the scene has more than {MOST_THINGS} objects, lights or cameras"));
@@ -142,7 +145,9 @@ pub(crate) fn place_light(light: Light, placement: &Affine3A) -> Light {
 /// The rotation in a placement: its axes made orthonormal, without mirroring.
 fn rotation_of(placement: &Affine3A) -> Mat3 {
     let m = placement.matrix3;
-    let (Some(x), Some(y)) = (m.x_axis.try_normalize(), m.y_axis.try_normalize()) else { return Mat3::IDENTITY };
+    let (Some(x), Some(y)) = (m.x_axis.try_normalize(), m.y_axis.try_normalize()) else {
+        return Mat3::IDENTITY;
+    };
     let Some(z) = x.cross(y).try_normalize() else { return Mat3::IDENTITY };
     Mat3::from_cols(x.into(), z.cross(x).into(), z.into())
 }

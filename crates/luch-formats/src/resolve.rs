@@ -4,7 +4,9 @@ mod materials;
 mod meshes;
 
 use crate::images::Images;
-use crate::scene_file::{self, EnvironmentSource, Report, SceneFile, ShapeSource, Span, Spanned, advice, clip};
+use crate::scene_file::{
+    self, EnvironmentSource, Report, SceneFile, ShapeSource, Span, Spanned, advice, clip,
+};
 use crate::{Files, LoadError, Loaded, Problem, Warning, format, merge, neutral_sky};
 use luch_image::Rgb;
 use luch_scene::{Environment, Id, Instance, Material, Scene, Shape};
@@ -87,7 +89,11 @@ impl Resolver<'_> {
             let Some(name) = name else { continue };
             if let Some((_, first)) = known.get(&name.value) {
                 let help = format!("first {}", self.report.line(first, &name.span));
-                self.report.add(&name.span, format!("{kind} \"{}\" is defined twice", clip(&name.value)), Some(help));
+                self.report.add(
+                    &name.span,
+                    format!("{kind} \"{}\" is defined twice", clip(&name.value)),
+                    Some(help),
+                );
             } else {
                 known.insert(name.value.clone(), (place, name.span.clone()));
             }
@@ -109,15 +115,21 @@ impl Resolver<'_> {
         let mut clay = None;
         for object in &file.objects {
             let shape = match &object.shape {
-                ShapeSource::Mesh(name) => self.find("mesh", &meshes.names, name).and_then(|at| meshes.shapes[at]),
+                ShapeSource::Mesh(name) => {
+                    self.find("mesh", &meshes.names, name).and_then(|at| meshes.shapes[at])
+                }
                 ShapeSource::InlineMesh(place) => meshes.shapes[*place],
-                ShapeSource::Sphere { radius } => Some(self.scene.add_shape(Shape::Sphere { radius: *radius })),
+                ShapeSource::Sphere { radius } => {
+                    Some(self.scene.add_shape(Shape::Sphere { radius: *radius }))
+                }
                 ShapeSource::Disc { radius } => Some(self.scene.add_shape(Shape::Disc { radius: *radius })),
                 ShapeSource::Plane => Some(self.scene.add_shape(Shape::Plane)),
             };
-            let mut materials: Vec<Id<Material>> = object.materials.iter().filter_map(|&place| uses[place]).collect();
+            let mut materials: Vec<Id<Material>> =
+                object.materials.iter().filter_map(|&place| uses[place]).collect();
             if object.materials.is_empty() {
-                materials.push(*clay.get_or_insert_with(|| self.scene.add_material(crate::bare_mesh::clay())));
+                materials
+                    .push(*clay.get_or_insert_with(|| self.scene.add_material(crate::bare_mesh::clay())));
             }
             let (Some(shape), false) = (shape, materials.is_empty()) else { continue };
             if self.emits_badly(shape, &materials, object) {
@@ -129,7 +141,12 @@ impl Resolver<'_> {
     }
 
     /// True, and a problem, if a lamp has a form that light cannot be drawn from.
-    fn emits_badly(&mut self, shape: Id<Shape>, materials: &[Id<Material>], object: &scene_file::ObjectSource) -> bool {
+    fn emits_badly(
+        &mut self,
+        shape: Id<Shape>,
+        materials: &[Id<Material>],
+        object: &scene_file::ObjectSource,
+    ) -> bool {
         let emits = materials.iter().any(|id| self.scene.materials[id.index()].emission.is_some());
         let m = object.placement.matrix3;
         let message = match self.scene.shapes[shape.index()] {
@@ -158,7 +175,8 @@ impl Resolver<'_> {
                 match self.images.load(&file, &mut self.scene, &mut self.warnings) {
                     Some(image) => Environment::LatLong { image, scale, rotation },
                     None => {
-                        self.warnings.push(self.report.problem(&span, "an even gray takes the place of the picture"));
+                        self.warnings
+                            .push(self.report.problem(&span, "an even gray takes the place of the picture"));
                         Environment::Constant { radiance: Rgb::gray(0.5) * scale }
                     }
                 }

@@ -130,8 +130,12 @@ pub(crate) enum ShapeSource {
     Mesh(Spanned<String>),
     /// A place in [`SceneFile::meshes`].
     InlineMesh(usize),
-    Sphere { radius: f32 },
-    Disc { radius: f32 },
+    Sphere {
+        radius: f32,
+    },
+    Disc {
+        radius: f32,
+    },
     Plane,
 }
 
@@ -157,7 +161,14 @@ pub(crate) struct ImportSource {
 #[derive(Clone, Debug)]
 pub(crate) enum EnvironmentSource {
     Constant(Rgb),
-    Image { path: Spanned<String>, scale: Rgb, rotation: Mat3 },
+    Image {
+        path: Spanned<String>,
+        scale: Rgb,
+        rotation: Mat3,
+    },
     /// [`crate::neutral_sky`].
-    Neutral { scale: Rgb, rotation: Mat3 },
+    Neutral {
+        scale: Rgb,
+        rotation: Mat3,
+    },
 }

@@ -87,14 +87,22 @@ fn sync_folder(_: &Path) -> std::io::Result<()> {
 ///
 /// # Errors
 /// If the extension is another, the picture is empty or too large for the format, or the disk refuses.
-pub fn save_image(path: &Path, image: &Image<Rgb>, tone: &Tone, metadata: &Metadata) -> Result<(), SaveError> {
+pub fn save_image(
+    path: &Path,
+    image: &Image<Rgb>,
+    tone: &Tone,
+    metadata: &Metadata,
+) -> Result<(), SaveError> {
     use image_codec::Format;
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("");
     let encoded = match Format::from_extension(extension) {
         Some(Format::Exr) => {
             let layers = vec![Layer::from_rgb("", image)];
-            image_codec::encode_exr(&Layers { width: image.width(), height: image.height(), layers }, metadata)
-        },
+            image_codec::encode_exr(
+                &Layers { width: image.width(), height: image.height(), layers },
+                metadata,
+            )
+        }
         Some(Format::Hdr) => image_codec::encode_hdr(image, metadata),
         Some(Format::Pfm) => image_codec::encode_pfm(image),
         Some(Format::Png) => image_codec::encode_png8(&tone.to_u8(image), metadata),

@@ -74,7 +74,9 @@ impl Scanner<'_> {
     fn node(&mut self, depth: usize) -> Result<Node, Broken> {
         self.type_annotation()?;
         if self.looks_at("{") {
-            let help = Some("a block belongs to a node: a name stands before it, and no `;` or new line between them");
+            let help = Some(
+                "a block belongs to a node: a name stands before it, and no `;` or new line between them",
+            );
             return Err(self.fail(self.here(), "a block without a node", help));
         }
         let start = self.at;
@@ -117,7 +119,8 @@ impl Scanner<'_> {
         if is_comment {
             self.line_space()?;
         }
-        let part = if self.looks_at("{") { Part::Children(self.block(depth)?) } else { Part::Entry(self.entry()?) };
+        let part =
+            if self.looks_at("{") { Part::Children(self.block(depth)?) } else { Part::Entry(self.entry()?) };
         Ok(if is_comment { Part::Nothing } else { part })
     }
 
@@ -174,7 +177,11 @@ impl Scanner<'_> {
         let start = self.at;
         self.take_while(|c| c != ')' && !is_newline(c));
         self.take(")");
-        Err(self.fail(start..self.at, "type annotations mean nothing here", Some("leave out the parentheses")))
+        Err(self.fail(
+            start..self.at,
+            "type annotations mean nothing here",
+            Some("leave out the parentheses"),
+        ))
     }
 
     /// A string, number or keyword.
@@ -192,7 +199,8 @@ impl Scanner<'_> {
                 self.word_or_number(word, start)?
             }
             c => {
-                let help = "characters other than letters, digits and signs such as `-` stand in quotes: \"…\"";
+                let help =
+                    "characters other than letters, digits and signs such as `-` stand in quotes: \"…\"";
                 return Err(self.fail(self.here(), format!("unexpected `{}`", c.escape_debug()), Some(help)));
             }
         };

@@ -10,14 +10,16 @@ impl Scanner<'_> {
         let digits = unsigned.strip_prefix('.').unwrap_or(unsigned);
         if digits.starts_with(|c: char| c.is_ascii_digit()) {
             let span = start..start + word.len();
-            return number(word).ok_or(()).or_else(|()| {
-                let help = Some("numbers look like 1, -2.5, 6.02e23 or 0xff; a name that begins with a digit stands in quotes");
-                Err(self.fail(span, format!("`{word}` is no number"), help))
-            });
+            let help = "numbers look like 1, -2.5, 6.02e23 or 0xff; a name that begins with a digit stands in quotes";
+            return number(word).ok_or_else(|| self.fail(span, format!("`{word}` is no number"), Some(help)));
         }
         if matches!(word, "true" | "false" | "null" | "inf" | "-inf" | "nan") {
             let span = start..start + word.len();
-            return Err(self.fail(span, format!("`{word}` is written `#{word}`"), Some("or \"…\" if the word itself is meant")));
+            return Err(self.fail(
+                span,
+                format!("`{word}` is written `#{word}`"),
+                Some("or \"…\" if the word itself is meant"),
+            ));
         }
         Ok(Value::Text(word.to_owned()))
     }
@@ -60,7 +62,9 @@ fn integer(digits: &str, radix: u32, is_negative: bool) -> Option<Value> {
     let plain = digits.replace('_', "");
     match i128::from_str_radix(&plain, radix) {
         Ok(value) => Some(Value::Integer(if is_negative { -value } else { value })),
-        Err(_) if radix == 10 => plain.parse().ok().map(|v: f64| Value::Float(if is_negative { -v } else { v })),
+        Err(_) if radix == 10 => {
+            plain.parse().ok().map(|v: f64| Value::Float(if is_negative { -v } else { v }))
+        }
         Err(_) => None,
     }
 }

@@ -22,7 +22,10 @@ pub(super) fn is_newline(c: char) -> bool {
 }
 
 pub(super) fn is_space(c: char) -> bool {
-    matches!(c, '\t' | ' ' | '\u{a0}' | '\u{1680}' | '\u{2000}'..='\u{200a}' | '\u{202f}' | '\u{205f}' | '\u{3000}')
+    matches!(
+        c,
+        '\t' | ' ' | '\u{a0}' | '\u{1680}' | '\u{2000}'..='\u{200a}' | '\u{202f}' | '\u{205f}' | '\u{3000}'
+    )
 }
 
 /// Code points that may stand nowhere.
@@ -69,7 +72,12 @@ impl<'a> Scanner<'a> {
     }
 
     /// Notes a mistake.
-    pub(super) fn fail(&mut self, span: Range<usize>, message: impl Into<String>, help: Option<&'static str>) -> Broken {
+    pub(super) fn fail(
+        &mut self,
+        span: Range<usize>,
+        message: impl Into<String>,
+        help: Option<&'static str>,
+    ) -> Broken {
         if self.errors.len() < MOST_ERRORS {
             self.errors.push(SyntaxError { span, message: message.into(), help });
         }
@@ -116,7 +124,11 @@ impl<'a> Scanner<'a> {
             } else if let Some(c) = self.peek() {
                 self.at += c.len_utf8();
             } else {
-                return Err(self.fail(start..start + 2, "this comment is never closed", Some("end it with `*/`")));
+                return Err(self.fail(
+                    start..start + 2,
+                    "this comment is never closed",
+                    Some("end it with `*/`"),
+                ));
             }
         }
         Ok(true)

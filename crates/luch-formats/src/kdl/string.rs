@@ -46,7 +46,8 @@ impl<'a> Scanner<'a> {
                     return Err(self.fail(start..end, NEVER_CLOSED, None));
                 }
                 Some(c) if is_newline(c) && !is_multiline => {
-                    let help = Some("end it with a quote; text of several lines stands between \"\"\" and \"\"\"");
+                    let help =
+                        Some("end it with a quote; text of several lines stands between \"\"\" and \"\"\"");
                     return Err(self.fail(start..self.at, NEVER_CLOSED, help));
                 }
                 Some(c) if is_disallowed(c) => {
@@ -86,8 +87,10 @@ impl<'a> Scanner<'a> {
                 Some(line) if !line.chars().all(is_space) => text.push_str(line),
                 _ if line.chars().all(is_space) => {}
                 _ => {
-                    let help = Some("every line begins with the white space that stands before the closing quotes");
-                    let message = format!("line {} of this text begins otherwise than its last line", number + 1);
+                    let help =
+                        Some("every line begins with the white space that stands before the closing quotes");
+                    let message =
+                        format!("line {} of this text begins otherwise than its last line", number + 1);
                     return Err(self.fail(start..start + 3, message, help));
                 }
             }

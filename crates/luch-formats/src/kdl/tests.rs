@@ -27,7 +27,8 @@ fn theirs(document: &::kdl::KdlDocument) -> Vec<Plain> {
 }
 
 fn ours(nodes: &[Node]) -> Vec<Plain> {
-    let entry = |entry: &super::Entry| (entry.name.as_ref().map(|name| name.text.clone()), entry.value.clone());
+    let entry =
+        |entry: &super::Entry| (entry.name.as_ref().map(|name| name.text.clone()), entry.value.clone());
     nodes
         .iter()
         .map(|node| Plain {
@@ -74,7 +75,8 @@ const GOOD: [&str; 22] = [
 #[test]
 fn good_texts_mean_what_the_kdl_crate_says() {
     for text in GOOD {
-        let expected = theirs(&::kdl::KdlDocument::parse_v2(text).unwrap_or_else(|e| panic!("{text:?}: {e:?}")));
+        let expected =
+            theirs(&::kdl::KdlDocument::parse_v2(text).unwrap_or_else(|e| panic!("{text:?}: {e:?}")));
         assert_eq!(ours(&parse(text).unwrap_or_else(|e| panic!("{text:?}: {e:?}"))), expected, "{text:?}");
     }
 }
@@ -92,9 +94,37 @@ fn the_scenes_mean_what_the_kdl_crate_says() {
 #[test]
 fn bad_texts_are_refused_by_both() {
     let bad = [
-        "{", "}", "a {", "a }", "a = 1", "a b=", "a (t)", "a \"x", "a \"x\ny\"", "a true", "a null", "a #maybe", "a 1x", "a 0xg",
-        "a 1..2", "a .5", "a +.5", "a \\ 1", "/* x", "a [", "a \"\\q\"", "a \"\\u{110000}\"", "a \"\"\"x\"\"\"",
-        "a \"\"\"\n x\n  \"\"\"", "1 2", "a\"b\"", "a {} {}", "a\u{0}", "/-", "a \u{200e}", "a \u{feff}",
+        "{",
+        "}",
+        "a {",
+        "a }",
+        "a = 1",
+        "a b=",
+        "a (t)",
+        "a \"x",
+        "a \"x\ny\"",
+        "a true",
+        "a null",
+        "a #maybe",
+        "a 1x",
+        "a 0xg",
+        "a 1..2",
+        "a .5",
+        "a +.5",
+        "a \\ 1",
+        "/* x",
+        "a [",
+        "a \"\\q\"",
+        "a \"\\u{110000}\"",
+        "a \"\"\"x\"\"\"",
+        "a \"\"\"\n x\n  \"\"\"",
+        "1 2",
+        "a\"b\"",
+        "a {} {}",
+        "a\u{0}",
+        "/-",
+        "a \u{200e}",
+        "a \u{feff}",
     ];
     for text in bad {
         assert!(::kdl::KdlDocument::parse_v2(text).is_err(), "the kdl crate accepts {text:?}");

@@ -7,8 +7,8 @@ use glam::{Affine2, Vec2, Vec3};
 use luch_image::{Encoding, Rgb};
 use luch_mesh::codec::mtl::{Channel as MtlChannel, MtlMaterial, MtlTexture};
 use luch_scene::{
-    Channel, ColorValue, Emission, Id, Material, NormalMap, Opacity, Principled, Reflectance, ScalarValue, Scene,
-    Surface, Texture, TextureFilter, TextureUse, Wrap,
+    Channel, ColorValue, Emission, Id, Material, NormalMap, Opacity, Principled, Reflectance, ScalarValue,
+    Scene, Surface, Texture, TextureFilter, TextureUse, Wrap,
 };
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -98,7 +98,9 @@ impl Work<'_, '_> {
         let bends = source.index_of_refraction.is_some_and(|index| index > 1.0);
         let is_glass = matches!(model, 6 | 7)
             || (matches!(model, 4 | 9) && (is_clear || lets_through))
-            || (bends && is_clear && source.transmission_filter.is_some_and(|filter| filter.min_element() < 1.0));
+            || (bends
+                && is_clear
+                && source.transmission_filter.is_some_and(|filter| filter.min_element() < 1.0));
         if is_glass {
             return self.glass(source);
         }
@@ -119,7 +121,7 @@ impl Work<'_, '_> {
         let filter = source.transmission_filter.filter(|filter| filter.max_element() > 0.0);
         Surface::Dielectric {
             ior: self.index(source),
-            roughness: source.roughness.map_or(0.0, |r| unit(r)).into(),
+            roughness: source.roughness.map_or(0.0, unit).into(),
             tint: self.color("Tf", filter, &None, Vec3::ONE),
         }
     }
@@ -130,7 +132,11 @@ impl Work<'_, '_> {
         Surface::Principled(Principled {
             base_color: self.diffuse(source),
             metallic: self.number("Pm", source.metallic.unwrap_or(metallic_default), &source.metallic_map),
-            roughness: self.number("Pr", source.roughness.unwrap_or(roughness_default), &source.roughness_map),
+            roughness: self.number(
+                "Pr",
+                source.roughness.unwrap_or(roughness_default),
+                &source.roughness_map,
+            ),
             ior: self.index(source),
             ..Principled::default()
         })
@@ -140,8 +146,12 @@ impl Work<'_, '_> {
     fn mirror(&mut self, source: &MtlMaterial, specular: ColorValue) -> Surface {
         let roughness = source.shininess.filter(|&ns| ns > 0.0 && ns < 1000.0).map_or(0.0, roughness_of);
         let diffuse = self.diffuse(source);
-        let is_plain = source.diffuse.is_none_or(|kd| kd.max_element() <= 0.0) && source.diffuse_map.is_none();
-        let conductor = |color| Surface::Conductor { reflectance: Reflectance::Color(color), roughness: roughness.into() };
+        let is_plain =
+            source.diffuse.is_none_or(|kd| kd.max_element() <= 0.0) && source.diffuse_map.is_none();
+        let conductor = |color| Surface::Conductor {
+            reflectance: Reflectance::Color(color),
+            roughness: roughness.into(),
+        };
         if is_plain {
             return conductor(specular);
         }
@@ -163,8 +173,8 @@ impl Work<'_, '_> {
         if sum > 1.0 {
             self.warn(format!("Kd and Ks of \"{}\" add up to {sum}: both are scaled down to 1", source.name));
             // A little less, so that rounding does not bring the sum above 1 again.
-            diffuse.factor = diffuse.factor * (0.999_999 / sum);
-            specular.factor = specular.factor * (0.999_999 / sum);
+            diffuse.factor *= 0.999_999 / sum;
+            specular.factor *= 0.999_999 / sum;
         }
         let exponent = source.shininess.unwrap_or(10.0);
         let exponent = if exponent.is_nan() { 10.0 } else { exponent.clamp(0.0, 1e6) };
@@ -226,7 +236,13 @@ impl Work<'_, '_> {
     }
 
     /// A colour in 0 to 1, with its texture; a missing picture makes it half as bright.
-    fn color(&mut self, keyword: &str, color: Option<Vec3>, map: &Option<MtlTexture>, usual: Vec3) -> ColorValue {
+    fn color(
+        &mut self,
+        keyword: &str,
+        color: Option<Vec3>,
+        map: &Option<MtlTexture>,
+        usual: Vec3,
+    ) -> ColorValue {
         let color = color.unwrap_or(if map.is_some() { Vec3::ONE } else { usual });
         let bounded = color.to_array().map(unit);
         if bounded != color.to_array() {

@@ -126,7 +126,7 @@ impl Resolver<'_> {
                 && !textures.lay(self, used, Reading::Color)
             {
                 color.texture = None;
-                color.factor = color.factor * 0.5;
+                color.factor *= 0.5;
             }
         }
         for scalar in all.scalars {
@@ -174,7 +174,9 @@ impl Textures<'_> {
                 // A pattern is the same however it is read.
                 match self.known.get(&(place, Reading::Color)) {
                     Some(&known) => known,
-                    None => Found::Texture(resolver.scene.add_texture(Texture::Checker { even: *even, odd: *odd })),
+                    None => Found::Texture(
+                        resolver.scene.add_texture(Texture::Checker { even: *even, odd: *odd }),
+                    ),
                 }
             }
             TextureSource::Image(image) => Self::image(resolver, image, reading),
@@ -201,4 +203,3 @@ impl Textures<'_> {
         })
     }
 }
-

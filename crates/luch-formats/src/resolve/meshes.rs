@@ -29,7 +29,8 @@ impl Resolver<'_> {
             let mesh = self.mesh(&source.value, &mut last);
             triangles += mesh.as_ref().map_or(0, |mesh| mesh.triangles.len());
             if triangles > MOST_TRIANGLES {
-                let message = format!("the meshes of the scene have more than {MOST_TRIANGLES} triangles together");
+                let message =
+                    format!("the meshes of the scene have more than {MOST_TRIANGLES} triangles together");
                 self.report.add(&source.value.span, message, None);
                 break;
             }
@@ -39,7 +40,11 @@ impl Resolver<'_> {
         Meshes { names, shapes }
     }
 
-    fn mesh(&mut self, source: &MeshSource, last: &mut Option<(PathBuf, TriangleMesh)>) -> Option<TriangleMesh> {
+    fn mesh(
+        &mut self,
+        source: &MeshSource,
+        last: &mut Option<(PathBuf, TriangleMesh)>,
+    ) -> Option<TriangleMesh> {
         let mut mesh = match &source.origin {
             MeshOrigin::Generator(generator) => generator.mesh(),
             MeshOrigin::File(name) => {

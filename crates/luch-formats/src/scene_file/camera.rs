@@ -29,7 +29,11 @@ impl Decoder<'_> {
         let lens_radius = self.number_or(&mut fields, "lens-radius", Range::NOT_NEGATIVE, 0.0);
         let focus = self.optional_number(&mut fields, "focus", Range::POSITIVE);
         if !has_from && fields.nothing_left() {
-            self.problem(&fields.span, "`camera` lacks its place", Some("write `from x y z` in its block".into()));
+            self.problem(
+                &fields.span,
+                "`camera` lacks its place",
+                Some("write `from x y z` in its block".into()),
+            );
         }
         if !has_target && fields.nothing_left() {
             let help = "write `to x y z` or `direction x y z` in its block";
@@ -62,7 +66,11 @@ impl Decoder<'_> {
         match (to, direction) {
             (Some(_), Some(_)) => self.problem(&fields.span, "`camera` has both `to` and `direction`", None),
             (Some(to), None) if from == Some(to) => {
-                self.problem(from_span, "`camera` looks at the point where it stands: `from` and `to` are equal", None);
+                self.problem(
+                    from_span,
+                    "`camera` looks at the point where it stands: `from` and `to` are equal",
+                    None,
+                );
             }
             (Some(to), None) => return Some(to),
             (None, Some(direction)) => return from.map(|from| from + direction),
@@ -86,7 +94,8 @@ impl Decoder<'_> {
         let mut inner = orthographic.fields();
         let height = self.optional_number(&mut inner, "height", Range::POSITIVE);
         if height.is_none() && inner.nothing_left() {
-            let help = "write `orthographic height=3`: how many metres fit into the picture from bottom to top";
+            let help =
+                "write `orthographic height=3`: how many metres fit into the picture from bottom to top";
             self.problem(&inner.span, "`orthographic` lacks its height", Some(help.into()));
         }
         inner.finish(self, "option");

@@ -26,22 +26,39 @@ const CHANNELS: [(&str, Channel); 5] = [
 
 impl Decoder<'_> {
     /// A colour from the arguments of a node.
-    pub(super) fn color(&mut self, owner: &str, span: &Span, arguments: &[Argument], range: Range) -> Option<Rgb> {
+    pub(super) fn color(
+        &mut self,
+        owner: &str,
+        span: &Span,
+        arguments: &[Argument],
+        range: Range,
+    ) -> Option<Rgb> {
         match arguments {
             [one] => match one.value {
                 Value::Text(text) => {
                     let color = hex(text);
                     if color.is_none() {
                         let help = match text.starts_with('#') {
-                            true => "a colour is \"#rrggbb\" or \"#rgb\", with digits 0 to 9 and a to f".to_owned(),
+                            true => "a colour is \"#rrggbb\" or \"#rgb\", with digits 0 to 9 and a to f"
+                                .to_owned(),
                             false => {
-                                let picture = if owner == "`environment`" { "a picture is image" } else { "a texture is texture" };
+                                let picture = if owner == "`environment`" {
+                                    "a picture is image"
+                                } else {
+                                    "a texture is texture"
+                                };
                                 let name = clip(text);
-                                format!("a colour is three numbers, one for gray, or \"#rrggbb\"; {picture}=\"{name}\"")
+                                format!(
+                                    "a colour is three numbers, one for gray, or \"#rrggbb\"; {picture}=\"{name}\""
+                                )
                             }
                         };
                         let shown = self.quote(&one.span);
-                        self.problem(&one.span, format!("{owner} is {shown}, which is no colour"), Some(help));
+                        self.problem(
+                            &one.span,
+                            format!("{owner} is {shown}, which is no colour"),
+                            Some(help),
+                        );
                     }
                     color
                 }
@@ -50,7 +67,9 @@ impl Decoder<'_> {
             [_, _, _] => self.array(owner, span, arguments, range).map(|[r, g, b]| Rgb::new(r, g, b)),
             _ => {
                 let have = arguments.len();
-                let message = format!("{owner} has {have} values, expected three numbers, one for gray, or \"#rrggbb\"");
+                let message = format!(
+                    "{owner} has {have} values, expected three numbers, one for gray, or \"#rrggbb\""
+                );
                 self.problem(span, message, None);
                 None
             }
@@ -58,12 +77,23 @@ impl Decoder<'_> {
     }
 
     /// A colour called `name` that does not vary, or `default`.
-    pub(super) fn constant_or(&mut self, fields: &mut Fields, name: &'static str, range: Range, default: Rgb) -> Rgb {
+    pub(super) fn constant_or(
+        &mut self,
+        fields: &mut Fields,
+        name: &'static str,
+        range: Range,
+        default: Rgb,
+    ) -> Rgb {
         self.optional_constant(fields, name, range).unwrap_or(default)
     }
 
     /// A colour called `name` that does not vary.
-    pub(super) fn optional_constant(&mut self, fields: &mut Fields, name: &'static str, range: Range) -> Option<Rgb> {
+    pub(super) fn optional_constant(
+        &mut self,
+        fields: &mut Fields,
+        name: &'static str,
+        range: Range,
+    ) -> Option<Rgb> {
         let mut inner = fields.take(self, name)?.fields();
         let arguments = inner.all_arguments();
         let color = self.color(&inner.owner.clone(), &inner.span, &arguments, range);
@@ -72,7 +102,13 @@ impl Decoder<'_> {
     }
 
     /// A colour called `name`, or `default`.
-    pub(super) fn color_or(&mut self, fields: &mut Fields, name: &'static str, range: Range, default: Rgb) -> ColorValue {
+    pub(super) fn color_or(
+        &mut self,
+        fields: &mut Fields,
+        name: &'static str,
+        range: Range,
+        default: Rgb,
+    ) -> ColorValue {
         match fields.take(self, name) {
             Some(field) => self.color_value(&mut field.fields(), range),
             None => default.into(),
@@ -94,7 +130,13 @@ impl Decoder<'_> {
     }
 
     /// A number called `name` that may vary, or `default`.
-    pub(super) fn scalar_or(&mut self, fields: &mut Fields, name: &'static str, range: Range, default: f32) -> ScalarValue {
+    pub(super) fn scalar_or(
+        &mut self,
+        fields: &mut Fields,
+        name: &'static str,
+        range: Range,
+        default: f32,
+    ) -> ScalarValue {
         match fields.take(self, name) {
             Some(field) => self.scalar_value(&mut field.fields(), range, Channel::Red),
             None => default.into(),
@@ -102,7 +144,12 @@ impl Decoder<'_> {
     }
 
     /// The number that a node itself is; `channel` is read unless another is asked for.
-    pub(super) fn scalar_value(&mut self, fields: &mut Fields, range: Range, channel: Channel) -> ScalarValue {
+    pub(super) fn scalar_value(
+        &mut self,
+        fields: &mut Fields,
+        range: Range,
+        channel: Channel,
+    ) -> ScalarValue {
         let varying = self.varying(fields, "vertex-alpha");
         let asked = fields.take(self, "channel");
         if let Some(field) = asked.as_ref().filter(|_| varying.texture.is_none()) {
@@ -148,7 +195,8 @@ impl Decoder<'_> {
         let scale = scale.and_then(|field| self.pair(field)).unwrap_or(Vec2::ONE);
         let rotate = rotate.and_then(|field| self.numbers(field, Range::between(-1e6, 1e6)));
         let angle = rotate.map_or(0.0, |[degrees]| (degrees % 360.0).to_radians());
-        let offset = offset.and_then(|field| self.numbers(field, Range::ANY)).map_or(Vec2::ZERO, Vec2::from_array);
+        let offset =
+            offset.and_then(|field| self.numbers(field, Range::ANY)).map_or(Vec2::ZERO, Vec2::from_array);
         let uv_set = uv_set
             .and_then(|field| self.single(field, "a whole number"))
             .and_then(|argument| self.whole("`uv-set`", &argument, 0, 255))
@@ -176,7 +224,9 @@ impl Decoder<'_> {
         let arguments = fields.all_arguments();
         let pair = match arguments.as_slice() {
             [one] => self.number(&fields.owner.clone(), one, Range::ANY).map(Vec2::splat),
-            _ => self.array(&fields.owner.clone(), &fields.span, &arguments, Range::ANY).map(Vec2::from_array),
+            _ => {
+                self.array(&fields.owner.clone(), &fields.span, &arguments, Range::ANY).map(Vec2::from_array)
+            }
         };
         fields.finish(self, "option");
         pair

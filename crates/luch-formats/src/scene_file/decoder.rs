@@ -92,7 +92,11 @@ impl Decoder<'_> {
             Ok(nodes) => nodes,
             Err(errors) => {
                 for error in errors {
-                    self.problem(&Span { source, bytes: error.span }, error.message, error.help.map(str::to_owned));
+                    self.problem(
+                        &Span { source, bytes: error.span },
+                        error.message,
+                        error.help.map(str::to_owned),
+                    );
                 }
                 return;
             }
@@ -107,7 +111,10 @@ impl Decoder<'_> {
         let read = self.files.read(path).and_then(|bytes| {
             self.text_size = self.text_size.saturating_add(bytes.len());
             if self.text_size > MOST_TEXT {
-                return Err(Problem::new(path, format!("the scene files have more than {MOST_TEXT} bytes together")));
+                return Err(Problem::new(
+                    path,
+                    format!("the scene files have more than {MOST_TEXT} bytes together"),
+                ));
             }
             String::from_utf8(bytes).map_err(|error| {
                 let at = error.utf8_error().valid_up_to() as u64;
@@ -128,7 +135,8 @@ impl Decoder<'_> {
         let is_versioned = nodes.first().is_some_and(|node| node.name.text == "luch");
         if is_main && !is_versioned {
             let bytes = nodes.first().map_or(0..0, |node| node.name.span.clone());
-            let help = format!("write `luch {VERSION}` before everything else: it is the version of the format");
+            let help =
+                format!("write `luch {VERSION}` before everything else: it is the version of the format");
             self.problem(&Span { source, bytes }, "the version of the format is missing", Some(help));
         }
         for (place, node) in nodes.iter().enumerate() {
@@ -185,7 +193,8 @@ impl Decoder<'_> {
         let Some(Spanned { value, span }) = name else { return };
         let path = normal(&Files::beside(&self.report.sources[span.source].path, &value));
         if let Some(first) = self.open.iter().position(|open| normal(open) == path) {
-            let cycle: Vec<String> = self.open[first..].iter().map(|path| path.display().to_string()).collect();
+            let cycle: Vec<String> =
+                self.open[first..].iter().map(|path| path.display().to_string()).collect();
             let message = format!("this file includes itself: {} → {}", cycle.join(" → "), path.display());
             self.problem(&span, message, None);
         } else if self.open.len() == DEEPEST_INCLUDE {

@@ -146,7 +146,8 @@ impl<'a> Fields<'a> {
                 found.push(field);
             } else {
                 let help = format!("write `{{ {} … }}`", field.name);
-                let message = format!("`{}` stands in the block of {}, not beside its name", field.name, self.owner);
+                let message =
+                    format!("`{}` stands in the block of {}, not beside its name", field.name, self.owner);
                 decoder.problem(&field.span, message, Some(help));
             }
         }
@@ -183,7 +184,8 @@ impl<'a> Fields<'a> {
         }
         for field in self.fields.drain(..).flatten() {
             if decoder.report.is_full() {
-                return;
+                decoder.problem(&field.span, "", None);
+                continue;
             }
             let help = advice(field.name, self.asked.iter().copied(), "accepted", "`");
             let name = clip(field.name);

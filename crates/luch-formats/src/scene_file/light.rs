@@ -64,7 +64,13 @@ impl Decoder<'_> {
             self.problem(&fields.span, "`inner-angle` of `spot-light` is larger than `outer-angle`", None);
         }
         let (inner_angle, outer_angle) = (inner, outer.min(std::f32::consts::PI));
-        Some(Light::Spot { position: position?, direction: toward?, intensity: intensity?, inner_angle, outer_angle })
+        Some(Light::Spot {
+            position: position?,
+            direction: toward?,
+            intensity: intensity?,
+            inner_angle,
+            outer_angle,
+        })
     }
 
     fn direction_to(&mut self, fields: &Fields, position: Option<Vec3>, target: Vec3) -> Option<Vec3> {
@@ -125,7 +131,8 @@ impl Decoder<'_> {
             })
         } else {
             let arguments = fields.all_arguments();
-            self.color("`environment`", &span, &arguments, Range::NOT_NEGATIVE).map(EnvironmentSource::Constant)
+            self.color("`environment`", &span, &arguments, Range::NOT_NEGATIVE)
+                .map(EnvironmentSource::Constant)
         };
         fields.finish(self, "option");
         if let Some(value) = environment {

@@ -22,7 +22,11 @@ impl Decoder<'_> {
     pub(super) fn inline_material(&mut self, mut fields: Fields) -> Option<usize> {
         if let Some(name) = fields.text_argument() {
             let help = "define it at the top level and refer to it by its name, or leave the name out";
-            self.problem(&name.span, "a material that is written where it is used has no name", Some(help.into()));
+            self.problem(
+                &name.span,
+                "a material that is written where it is used has no name",
+                Some(help.into()),
+            );
         }
         let material = self.material(fields, None);
         self.scene.materials.push(Named { name: None, value: material });

@@ -124,7 +124,8 @@ impl Decoder<'_> {
         fields.finish(self, "option");
         self.generated = self.generated.saturating_add(triangle_count(&generator));
         if self.generated > MOST_GENERATED {
-            let message = format!("`{kind}` brings the generated triangles of the scene to {}", self.generated);
+            let message =
+                format!("`{kind}` brings the generated triangles of the scene to {}", self.generated);
             self.problem(&fields.span, message, Some(format!("at most {MOST_GENERATED} are made")));
             return None;
         }

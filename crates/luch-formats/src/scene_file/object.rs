@@ -53,7 +53,8 @@ impl Decoder<'_> {
         let shape_node = fields.take_one_of(self, &SHAPES);
         let lacks_shape = shape_node.is_none();
         let shape = shape_node.and_then(|field| self.shape(field));
-        let materials = fields.take(self, "material").map(|field| self.material_of(field)).unwrap_or_default();
+        let materials =
+            fields.take(self, "material").map(|field| self.material_of(field)).unwrap_or_default();
         let placement = self.placed(&mut fields, outer);
         if lacks_shape && fields.nothing_left() {
             let help = "write mesh=\"name\", `mesh { … }`, `sphere radius=1`, `disc radius=1` or `plane`";
@@ -79,8 +80,12 @@ impl Decoder<'_> {
                     None
                 }
             },
-            "sphere" => Some(ShapeSource::Sphere { radius: self.number_or(&mut fields, "radius", Range::POSITIVE, 1.0) }),
-            "disc" => Some(ShapeSource::Disc { radius: self.number_or(&mut fields, "radius", Range::POSITIVE, 1.0) }),
+            "sphere" => Some(ShapeSource::Sphere {
+                radius: self.number_or(&mut fields, "radius", Range::POSITIVE, 1.0),
+            }),
+            "disc" => Some(ShapeSource::Disc {
+                radius: self.number_or(&mut fields, "radius", Range::POSITIVE, 1.0),
+            }),
             _ => Some(ShapeSource::Plane),
         };
         fields.finish(self, "option");

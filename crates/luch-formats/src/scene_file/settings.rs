@@ -73,7 +73,8 @@ impl Decoder<'_> {
         let mut integrator = self.kind(&mut fields, &INTEGRATORS).unwrap_or_default();
         match &mut integrator {
             Integrator::Path { max_depth } | Integrator::PlainPath { max_depth } => {
-                *max_depth = self.whole_or(&mut fields, "max-depth", 0, DEEPEST_PATH, u64::from(*max_depth)) as u32;
+                *max_depth =
+                    self.whole_or(&mut fields, "max-depth", 0, DEEPEST_PATH, u64::from(*max_depth)) as u32;
             }
             Integrator::Direct => {}
             Integrator::Occlusion { distance } => {

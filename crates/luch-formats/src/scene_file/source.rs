@@ -93,7 +93,11 @@ impl Report {
     pub(crate) fn line(&self, span: &Span, from: &Span) -> String {
         let source = &self.sources[span.source];
         let line = source.text[..span.bytes.start].matches('\n').count() + 1;
-        if span.source == from.source { format!("on line {line}") } else { format!("at {}:{line}", source.path.display()) }
+        if span.source == from.source {
+            format!("on line {line}")
+        } else {
+            format!("at {}:{line}", source.path.display())
+        }
     }
 
     /// How many problems are noted.
@@ -114,7 +118,12 @@ impl Report {
 }
 
 /// Advice about a word that is none of those accepted: the nearest, if one is near, and all of them.
-pub(crate) fn advice<'a>(word: &str, accepted: impl IntoIterator<Item = &'a str>, kind: &str, quote: &str) -> String {
+pub(crate) fn advice<'a>(
+    word: &str,
+    accepted: impl IntoIterator<Item = &'a str>,
+    kind: &str,
+    quote: &str,
+) -> String {
     /// More are not listed.
     const MOST_LISTED: usize = 24;
     let mut all: Vec<&str> = accepted.into_iter().collect();
@@ -123,8 +132,13 @@ pub(crate) fn advice<'a>(word: &str, accepted: impl IntoIterator<Item = &'a str>
     if all.is_empty() {
         return format!("{kind}: none");
     }
-    let near = nearest(word, &all).map(|other| format!("did you mean {quote}{other}{quote}? ")).unwrap_or_default();
-    let more = if all.len() > MOST_LISTED { format!(", and {} more", all.len() - MOST_LISTED) } else { String::new() };
+    let near =
+        nearest(word, &all).map(|other| format!("did you mean {quote}{other}{quote}? ")).unwrap_or_default();
+    let more = if all.len() > MOST_LISTED {
+        format!(", and {} more", all.len() - MOST_LISTED)
+    } else {
+        String::new()
+    };
     let listed: Vec<String> =
         all.iter().take(MOST_LISTED).map(|other| format!("{quote}{}{quote}", clip(other))).collect();
     format!("{near}{kind}: {}{more}", listed.join(", "))
@@ -137,16 +151,21 @@ fn nearest<'a>(word: &str, all: &[&'a str]) -> Option<&'a str> {
     // A third of the word may be wrong; swapped letters count as one slip.
     let length = word.chars().count();
     let most = (length.max(3) / 3).min(4);
-    let comparable = |other: &&&str| length <= LONGEST && other.chars().take(LONGEST + 1).count().abs_diff(length) <= most;
+    let comparable =
+        |other: &&&str| length <= LONGEST && other.chars().take(LONGEST + 1).count().abs_diff(length) <= most;
     let word = word.to_lowercase();
-    let near = all.iter().filter(comparable).map(|&other| (strsim::damerau_levenshtein(&word, &other.to_lowercase()), other));
+    let near = all
+        .iter()
+        .filter(comparable)
+        .map(|&other| (strsim::damerau_levenshtein(&word, &other.to_lowercase()), other));
     near.filter(|(distance, _)| *distance <= most).min().map(|(_, other)| other)
 }
 
 /// The beginning of a text, for messages.
 pub(crate) fn clip(text: &str) -> String {
     const LONGEST: usize = 40;
-    let mut short: String = text.chars().take(LONGEST).map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let mut short: String =
+        text.chars().take(LONGEST).map(|c| if c.is_control() { ' ' } else { c }).collect();
     if text.chars().nth(LONGEST).is_some() {
         short.push('…');
     }

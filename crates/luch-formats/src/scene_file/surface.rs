@@ -56,7 +56,9 @@ impl Decoder<'_> {
         let eta = self.optional_constant(fields, "eta", COMPLEX_INDEX);
         let k = self.optional_constant(fields, "k", COMPLEX_INDEX);
         let metal = fields.argument();
-        let ways = usize::from(metal.is_some()) + usize::from(color.is_some()) + usize::from(eta.is_some() || k.is_some());
+        let ways = usize::from(metal.is_some())
+            + usize::from(color.is_some())
+            + usize::from(eta.is_some() || k.is_some());
         if ways > 1 {
             let help = "it has a metal's name, or `color`, or `eta` and `k`";
             self.problem(&fields.span, "`conductor` is described twice", Some(help.into()));
@@ -73,7 +75,10 @@ impl Decoder<'_> {
             reflectance = Reflectance::Index { eta, k };
         } else if fields.nothing_left() {
             let metals = Metal::ALL.map(Metal::name);
-            let help = format!("write conductor \"gold\", conductor color=0.9, or both `eta` and `k`; {}", advice("", metals, "metals", "\""));
+            let help = format!(
+                "write conductor \"gold\", conductor color=0.9, or both `eta` and `k`; {}",
+                advice("", metals, "metals", "\"")
+            );
             self.problem(&fields.span, "`conductor` lacks its metal", Some(help));
         }
         Surface::Conductor { reflectance, roughness }
@@ -100,7 +105,8 @@ impl Decoder<'_> {
         let exponent = self.scalar_or(fields, "exponent", EXPONENT, 50.0);
         let sum = (diffuse.factor + specular.factor).max_channel();
         if sum > 1.0 + 1e-6 {
-            let message = format!("`diffuse` and `specular` of `phong` add up to {sum}, which is more than 1");
+            let message =
+                format!("`diffuse` and `specular` of `phong` add up to {sum}, which is more than 1");
             let help = "a surface cannot send out more light than it gets";
             self.problem(&fields.span, message, Some(help.into()));
         }
@@ -154,4 +160,3 @@ impl Decoder<'_> {
         names.into_iter().map(|name| self.use_material(MaterialUse::Named(name))).collect()
     }
 }
-

@@ -25,13 +25,17 @@ impl Decoder<'_> {
     /// All rotations of a node, one after another.
     pub(super) fn rotation(&mut self, fields: &mut Fields) -> Mat3 {
         let nodes = fields.take_nodes(self, &ROTATIONS);
-        nodes.into_iter().fold(Mat3::IDENTITY, |so_far, field| Mat3::from(self.transform(field).matrix3) * so_far)
+        nodes
+            .into_iter()
+            .fold(Mat3::IDENTITY, |so_far, field| Mat3::from(self.transform(field).matrix3) * so_far)
     }
 
     /// One transform; nothing happens if it is wrong.
     pub(super) fn transform(&mut self, field: Field) -> Affine3A {
         let transform = match field.name {
-            "translate" => self.numbers(field, Range::ANY).map(|by| Affine3A::from_translation(Vec3::from_array(by))),
+            "translate" => {
+                self.numbers(field, Range::ANY).map(|by| Affine3A::from_translation(Vec3::from_array(by)))
+            }
             "rotate-x" => self.turn(field, Vec3::X),
             "rotate-y" => self.turn(field, Vec3::Y),
             "rotate-z" => self.turn(field, Vec3::Z),
@@ -53,7 +57,8 @@ impl Decoder<'_> {
         let mut fields = field.fields();
         let angle = self.optional_number(&mut fields, "angle", Range::between(-1e6, 1e6));
         let arguments = fields.all_arguments();
-        let axis = self.array("the axis of `rotate`", &fields.span, &arguments, Range::ANY).map(Vec3::from_array);
+        let axis =
+            self.array("the axis of `rotate`", &fields.span, &arguments, Range::ANY).map(Vec3::from_array);
         let direction = axis.and_then(Vec3::try_normalize);
         if axis.is_some() && direction.is_none() {
             self.problem(&fields.span, "the axis of `rotate` has no direction: its length is zero", None);
@@ -93,7 +98,10 @@ impl Decoder<'_> {
         let span = field.span.clone();
         let m: [f32; 12] = self.numbers(field, Range::ANY)?;
         let column = |at: usize| glam::Vec3A::new(m[at], m[at + 4], m[at + 8]);
-        let map = Affine3A { matrix3: glam::Mat3A::from_cols(column(0), column(1), column(2)), translation: column(3) };
+        let map = Affine3A {
+            matrix3: glam::Mat3A::from_cols(column(0), column(1), column(2)),
+            translation: column(3),
+        };
         if !is_invertible(&map) {
             self.problem(&span, "`matrix` cannot be inverted", None);
             return None;

@@ -30,12 +30,11 @@ impl Range {
     }
 
     fn holds(&self, value: f64) -> bool {
-        let (least, most) = (f64::from(self.least), f64::from(self.most));
-        // Tested as it will be stored, too: a tiny positive number must not become zero.
-        let stored = f64::from(value as f32);
-        let above = |v: f64| if self.with_least { v >= least } else { v > least };
-        let below = |v: f64| if self.with_most { v <= most } else { v < most };
-        above(value) && above(stored) && below(value) && below(stored)
+        // Tested as it will be stored: a tiny positive number must not become zero.
+        let stored = value as f32;
+        let is_above = if self.with_least { stored >= self.least } else { stored > self.least };
+        let is_below = if self.with_most { stored <= self.most } else { stored < self.most };
+        is_above && is_below
     }
 
     fn describe(&self) -> String {
@@ -98,22 +97,42 @@ impl Decoder<'_> {
     }
 
     /// A number called `name`, or `default`.
-    pub(super) fn number_or(&mut self, fields: &mut Fields, name: &'static str, range: Range, default: f32) -> f32 {
+    pub(super) fn number_or(
+        &mut self,
+        fields: &mut Fields,
+        name: &'static str,
+        range: Range,
+        default: f32,
+    ) -> f32 {
         self.optional_number(fields, name, range).unwrap_or(default)
     }
 
     /// A number called `name`.
-    pub(super) fn optional_number(&mut self, fields: &mut Fields, name: &'static str, range: Range) -> Option<f32> {
+    pub(super) fn optional_number(
+        &mut self,
+        fields: &mut Fields,
+        name: &'static str,
+        range: Range,
+    ) -> Option<f32> {
         let field = fields.take(self, name)?;
         let argument = self.single(field, &range.describe())?;
         self.number(&format!("`{name}`"), &argument, range)
     }
 
     /// A whole number called `name`, or `default`.
-    pub(super) fn whole_or(&mut self, fields: &mut Fields, name: &'static str, least: u64, most: u64, default: u64) -> u64 {
+    pub(super) fn whole_or(
+        &mut self,
+        fields: &mut Fields,
+        name: &'static str,
+        least: u64,
+        most: u64,
+        default: u64,
+    ) -> u64 {
         let Some(field) = fields.take(self, name) else { return default };
         let argument = self.single(field, &format!("a whole number from {least} to {most}"));
-        argument.and_then(|argument| self.whole(&format!("`{name}`"), &argument, least, most)).unwrap_or(default)
+        argument
+            .and_then(|argument| self.whole(&format!("`{name}`"), &argument, least, most))
+            .unwrap_or(default)
     }
 
     /// `#true` or `#false` called `name`, or `default`; the bare word means true.
@@ -133,7 +152,12 @@ impl Decoder<'_> {
     }
 
     /// One of the words of a list.
-    pub(super) fn word<T: Copy>(&mut self, owner: &str, argument: &Argument, words: &[(&str, T)]) -> Option<T> {
+    pub(super) fn word<T: Copy>(
+        &mut self,
+        owner: &str,
+        argument: &Argument,
+        words: &[(&str, T)],
+    ) -> Option<T> {
         let names = || words.iter().map(|(name, _)| *name);
         let Value::Text(text) = argument.value else {
             let list: Vec<String> = names().map(|name| format!("\"{name}\"")).collect();
@@ -176,7 +200,11 @@ impl Decoder<'_> {
     }
 
     /// A text called `name`.
-    pub(super) fn optional_text(&mut self, fields: &mut Fields, name: &'static str) -> Option<Spanned<String>> {
+    pub(super) fn optional_text(
+        &mut self,
+        fields: &mut Fields,
+        name: &'static str,
+    ) -> Option<Spanned<String>> {
         let field = fields.take(self, name)?;
         let argument = self.single(field, "a text in quotes")?;
         self.text(&format!("`{name}`"), &argument)
@@ -200,7 +228,8 @@ impl Decoder<'_> {
         range: Range,
     ) -> Option<[f32; N]> {
         let before = self.report.count();
-        let all: Vec<f32> = arguments.iter().filter_map(|argument| self.number(owner, argument, range)).collect();
+        let all: Vec<f32> =
+            arguments.iter().filter_map(|argument| self.number(owner, argument, range)).collect();
         if self.report.count() > before {
             return None;
         }
@@ -235,7 +264,12 @@ impl Decoder<'_> {
     }
 
     /// An angle in degrees called `name`, as radians.
-    pub(super) fn optional_angle(&mut self, fields: &mut Fields, name: &'static str, range: Range) -> Option<f32> {
+    pub(super) fn optional_angle(
+        &mut self,
+        fields: &mut Fields,
+        name: &'static str,
+        range: Range,
+    ) -> Option<f32> {
         self.optional_number(fields, name, range).map(f32::to_radians)
     }
 }

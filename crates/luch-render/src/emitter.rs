@@ -1,0 +1,105 @@
+//! What can be sampled for light.
+//!
+//! One lamp of the scene may become many emitters: a glowing mesh is one for each triangle. The contract of the family: `sample`
+//! draws a direction toward the emitter with a density per solid angle, `pdf` is that density for a direction that a ray found by
+//! itself, and their quotient with the radiance is the irradiance, without bias.
+
+mod ball;
+mod disc;
+mod environment;
+mod point;
+mod sun;
+mod triangle;
+
+pub(crate) use ball::BallEmitter;
+pub(crate) use disc::DiscEmitter;
+pub(crate) use environment::EnvironmentEmitter;
+pub(crate) use point::{PointEmitter, SpotEmitter};
+pub(crate) use sun::SunEmitter;
+pub(crate) use triangle::TriangleEmitter;
+
+use glam::Vec3;
+use luch_image::Rgb;
+use luch_scene::Scene;
+
+/// A direction toward light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EmitterSample {
+    /// Toward the light; unit length.
+    pub incoming: Vec3,
+    /// The point of the emitter, or `None` if it is infinitely far.
+    pub target: Option<Vec3>,
+    /// What comes from there: radiance, or for delta lights irradiance on a surface that faces it.
+    pub radiance: Rgb,
+    /// Density per solid angle; for delta lights the probability alone.
+    pub pdf: f32,
+    /// True if no ray finds this light by itself.
+    pub delta: bool,
+}
+
+impl EmitterSample {
+    /// The only way to make a sample: `None` unless it carries light with a positive density.
+    fn checked(incoming: Vec3, target: Option<Vec3>, radiance: Rgb, pdf: f32, delta: bool) -> Option<Self> {
+        let usable = pdf > 0.0 && pdf.is_finite() && radiance.is_finite() && incoming.is_finite();
+        (usable && !radiance.is_black()).then_some(Self { incoming, target, radiance, pdf, delta })
+    }
+}
+
+/// One thing that shines.
+#[derive(Debug)]
+pub(crate) enum Emitter {
+    Triangle(TriangleEmitter),
+    Ball(BallEmitter),
+    Disc(DiscEmitter),
+    Point(PointEmitter),
+    Spot(SpotEmitter),
+    Sun(SunEmitter),
+    Environment(EnvironmentEmitter),
+}
+
+impl Emitter {
+    /// Draws a direction from `from` toward the emitter.
+    pub(crate) fn sample(&self, scene: &Scene, from: Vec3, u: [f32; 2]) -> Option<EmitterSample> {
+        match self {
+            Emitter::Triangle(emitter) => emitter.sample(scene, from, u),
+            Emitter::Ball(emitter) => emitter.sample(scene, from, u),
+            Emitter::Disc(emitter) => emitter.sample(scene, from, u),
+            Emitter::Point(emitter) => emitter.sample(from),
+            Emitter::Spot(emitter) => emitter.sample(from),
+            Emitter::Sun(emitter) => emitter.sample(u),
+            Emitter::Environment(emitter) => emitter.sample(scene, u),
+        }
+    }
+
+    /// Density with which `sample` draws the direction from `from` to the point `to` of an emitter that has a surface.
+    pub(crate) fn pdf(&self, from: Vec3, to: Vec3) -> f32 {
+        match self {
+            Emitter::Triangle(emitter) => emitter.pdf(from, to),
+            Emitter::Ball(emitter) => emitter.pdf(from, to),
+            Emitter::Disc(emitter) => emitter.pdf(from, to),
+            Emitter::Point(_) | Emitter::Spot(_) | Emitter::Sun(_) | Emitter::Environment(_) => 0.0,
+        }
+    }
+
+    /// Power in watts, or a guess of it: the weight with which the emitter is picked.
+    pub(crate) fn power(&self, scene: &Scene, scene_radius: f32) -> f32 {
+        match self {
+            Emitter::Triangle(emitter) => emitter.power(scene),
+            Emitter::Ball(emitter) => emitter.power(scene),
+            Emitter::Disc(emitter) => emitter.power(scene),
+            Emitter::Point(emitter) => emitter.power(),
+            Emitter::Spot(emitter) => emitter.power(),
+            Emitter::Sun(emitter) => emitter.power(scene_radius),
+            Emitter::Environment(emitter) => emitter.power(scene_radius),
+        }
+    }
+}
+
+/// Density per solid angle of a point drawn by area: `pdf_area · distance² / |cos|`; `None` on edge or in place.
+fn pdf_of_area(from: Vec3, to: Vec3, normal: Vec3, area: f32) -> Option<f32> {
+    let way = to - from;
+    let squared = way.length_squared();
+    let cosine = way.dot(normal).abs() / squared.sqrt();
+    let pdf = squared / (cosine * area);
+    (pdf > 0.0 && pdf.is_finite()).then_some(pdf)
+}

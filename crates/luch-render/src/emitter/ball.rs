@@ -1,0 +1,101 @@
+//! A glowing sphere, sampled uniformly in the solid angle it is seen under.
+
+use super::{EmitterSample, pdf_of_area};
+use crate::place::Place;
+use glam::{Affine3A, Vec3};
+use luch_image::Rgb;
+use luch_sampling::Frame;
+use luch_sampling::warp::{Cone, sphere};
+use luch_scene::{Emission, Id, Material, Scene};
+use std::f32::consts::PI;
+
+/// A sphere in the world that emits.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BallEmitter {
+    center: Vec3,
+    radius: f32,
+    instance: u32,
+    material: Id<Material>,
+    two_sided: bool,
+    to_local: Affine3A,
+}
+
+impl BallEmitter {
+    /// The emitter of a sphere of `radius` placed by a similarity.
+    pub(crate) fn new(radius: f32, placement: &Affine3A, instance: u32, material: Id<Material>, emission: &Emission) -> Self {
+        Self {
+            center: placement.translation.into(),
+            radius: radius * Vec3::from(placement.matrix3.x_axis).length(),
+            instance,
+            material,
+            two_sided: emission.two_sided,
+            to_local: placement.inverse(),
+        }
+    }
+
+    /// The cone it is seen under from outside.
+    fn cone(&self, from: Vec3) -> Option<Cone> {
+        let squared = from.distance_squared(self.center);
+        let sine = self.radius * self.radius / squared;
+        if sine < 1.0 { Cone::from_sin_squared(sine) } else { None }
+    }
+
+    fn radiance(&self, scene: &Scene, at: Vec3) -> Rgb {
+        let Some(emission) = &scene.materials[self.material.index()].emission else { return Rgb::BLACK };
+        let instance = &scene.instances[self.instance as usize];
+        let place = Place {
+            scene,
+            instance,
+            shape: &scene.shapes[instance.shape.index()],
+            primitive: 0,
+            weights: [1.0, 0.0, 0.0],
+            local: self.to_local.transform_point3(at),
+        };
+        place.color(&emission.radiance).map(|v| v.max(0.0))
+    }
+
+    pub(crate) fn sample(&self, scene: &Scene, from: Vec3, u: [f32; 2]) -> Option<EmitterSample> {
+        if let Some(cone) = self.cone(from) {
+            let axis = (self.center - from).try_normalize()?;
+            let incoming = Frame::from_normal(axis).to_world(cone.sample(u));
+            // The nearer of the two places where the direction meets the sphere; at the rim, the nearest to it.
+            let along = incoming.dot(self.center - from);
+            let off = (self.center - from) - incoming * along;
+            let half = (self.radius * self.radius - off.length_squared()).max(0.0).sqrt();
+            let out = (from + incoming * (along - half) - self.center).try_normalize()?;
+            let to = self.center + out * self.radius;
+            return EmitterSample::checked(incoming, Some(to), self.radiance(scene, to), cone_pdf(&cone), false);
+        }
+        if !self.two_sided {
+            return None;
+        }
+        let normal = sphere(u);
+        let to = self.center + normal * self.radius;
+        let pdf = pdf_of_area(from, to, normal, self.area())?;
+        EmitterSample::checked((to - from).try_normalize()?, Some(to), self.radiance(scene, to), pdf, false)
+    }
+
+    pub(crate) fn pdf(&self, from: Vec3, to: Vec3) -> f32 {
+        match self.cone(from) {
+            Some(cone) => cone_pdf(&cone),
+            None if self.two_sided => {
+                let normal = (to - self.center).normalize_or(Vec3::Y);
+                pdf_of_area(from, to, normal, self.area()).unwrap_or(0.0)
+            }
+            None => 0.0,
+        }
+    }
+
+    fn area(&self) -> f32 {
+        4.0 * PI * self.radius * self.radius
+    }
+
+    pub(crate) fn power(&self, scene: &Scene) -> f32 {
+        let emission = scene.materials[self.material.index()].emission.as_ref();
+        emission.map_or(0.0, |e| e.radiance.factor.luminance()) * self.area() * PI
+    }
+}
+
+fn cone_pdf(cone: &Cone) -> f32 {
+    1.0 / cone.solid_angle()
+}

@@ -1,0 +1,130 @@
+//! A place on a shape, known by ids and barycentric coordinates, and what the scene says there.
+
+use crate::texture::look_up;
+use glam::{Vec2, Vec3, Vec4};
+use luch_bvh::InstanceHit;
+use luch_image::Rgb;
+use luch_scene::{Channel, ColorValue, Id, Instance, Material, Opacity, ScalarValue, Scene, Shape, TextureUse};
+use std::f32::consts::PI;
+
+/// A place on an instance.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) instance: &'a Instance,
+    pub(crate) shape: &'a Shape,
+    /// Which triangle.
+    pub(crate) primitive: usize,
+    /// Weights of the three corners.
+    pub(crate) weights: [f32; 3],
+    /// Place in the shape's coordinates; for shapes that are not meshes.
+    pub(crate) local: Vec3,
+}
+
+/// The sum of corner values by weight: lecture points 74 to 77.
+pub(crate) fn blend<T>(corners: [T; 3], [a, b, c]: [f32; 3]) -> T
+where
+    T: std::ops::Mul<f32, Output = T> + std::ops::Add<Output = T>,
+{
+    let [at_a, at_b, at_c] = corners;
+    at_a * a + at_b * b + at_c * c
+}
+
+impl<'a> Place<'a> {
+    /// The place of a hit; `local` matters only where the shape is no mesh.
+    pub(crate) fn of_hit(scene: &'a Scene, hit: &InstanceHit, local: Vec3) -> Self {
+        let instance = &scene.instances[hit.instance as usize];
+        let (u, v) = (hit.hit.u, hit.hit.v);
+        Self {
+            scene,
+            instance,
+            shape: &scene.shapes[instance.shape.index()],
+            primitive: hit.hit.primitive as usize,
+            weights: [1.0 - u - v, u, v],
+            local,
+        }
+    }
+
+    /// The material of the place.
+    pub(crate) fn material_id(&self) -> Id<Material> {
+        let slot = match self.shape {
+            Shape::Mesh(mesh) => mesh.slot(self.primitive),
+            _ => 0,
+        };
+        self.instance.material(slot).expect("a sound scene has a material for every instance")
+    }
+
+    /// Texture coordinates; zero where the mesh has none.
+    pub(crate) fn uv(&self, set: usize) -> Vec2 {
+        match self.shape {
+            Shape::Mesh(mesh) => {
+                mesh.corner_uvs(self.primitive, set).map_or(Vec2::ZERO, |corners| blend(corners, self.weights))
+            }
+            Shape::Sphere { radius } => {
+                let p = self.local / *radius;
+                // u runs eastward from −Z, v from pole to pole.
+                Vec2::new(
+                    0.5 + libm::atan2f(p.x, p.z) / (2.0 * PI),
+                    1.0 - libm::acosf(p.y.clamp(-1.0, 1.0)) / PI,
+                )
+            }
+            Shape::Disc { radius } => Vec2::new(self.local.x, -self.local.z) / (2.0 * radius) + Vec2::splat(0.5),
+            Shape::Plane => Vec2::new(self.local.x, -self.local.z),
+        }
+    }
+
+    /// Vertex colour; white where the mesh has none.
+    fn vertex_color(&self) -> Vec4 {
+        let Shape::Mesh(mesh) = self.shape else { return Vec4::ONE };
+        let corners = mesh.colors.corners(self.primitive, mesh.triangles[self.primitive]);
+        corners.map_or(Vec4::ONE, |corners| blend(corners, self.weights))
+    }
+
+    /// A texture as it is laid on here.
+    pub(crate) fn texture(&self, used: &TextureUse) -> [f32; 4] {
+        let uv = used.place(self.uv(usize::from(used.uv_set)));
+        look_up(self.scene, &self.scene.textures[used.texture.index()], uv)
+    }
+
+    /// A colour here.
+    pub(crate) fn color(&self, value: &ColorValue) -> Rgb {
+        let mut color = value.factor;
+        if let Some(used) = &value.texture {
+            let [r, g, b, _] = self.texture(used);
+            color *= Rgb::new(r, g, b);
+        }
+        if value.vertex_color {
+            let c = self.vertex_color();
+            color *= Rgb::new(c.x, c.y, c.z);
+        }
+        color
+    }
+
+    /// A number here.
+    pub(crate) fn scalar(&self, value: &ScalarValue) -> f32 {
+        let mut number = value.factor;
+        if let Some((used, channel)) = &value.texture {
+            let [r, g, b, a] = self.texture(used);
+            number *= match channel {
+                Channel::Red => r,
+                Channel::Green => g,
+                Channel::Blue => b,
+                Channel::Alpha => a,
+                Channel::Luminance => Rgb::new(r, g, b).luminance(),
+            };
+        }
+        if value.vertex_alpha {
+            number *= self.vertex_color().w;
+        }
+        number
+    }
+
+    /// The probability that the surface is there.
+    pub(crate) fn opacity(&self, material: &Material) -> f32 {
+        match &material.opacity {
+            Opacity::Opaque => 1.0,
+            Opacity::Mask { alpha, cutoff } => f32::from(u8::from(self.scalar(alpha) >= *cutoff)),
+            Opacity::Blend { alpha } => self.scalar(alpha),
+        }
+    }
+}

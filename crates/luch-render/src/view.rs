@@ -1,0 +1,96 @@
+//! How a pixel and an index become a ray: camera, size, filter, sequence and seed.
+
+use crate::filter::FilterSampler;
+use crate::purpose;
+use glam::{Vec2, Vec3};
+use luch_bvh::Ray;
+use luch_sampling::warp::disc;
+use luch_sampling::{Sampler, Sequence};
+use luch_scene::{Camera, Projection, Settings};
+
+/// Everything that turns a pixel into rays. It is not part of the [`World`](crate::World), so turning the camera costs a new
+/// film and nothing else.
+#[derive(Debug)]
+pub struct View {
+    camera: Camera,
+    width: u32,
+    height: u32,
+    filter: FilterSampler,
+    sequence: Sequence,
+    seed: u64,
+    /// Half the height of the picture plane: at distance 1, or in metres if rays are parallel.
+    half_height: f32,
+}
+
+/// A ray into the scene and the random numbers of everything that follows.
+#[derive(Clone, Copy, Debug)]
+pub struct CameraSample {
+    /// From the lens, with unit direction.
+    pub ray: Ray,
+    /// The numbers of this sample.
+    pub sampler: Sampler,
+}
+
+impl View {
+    /// What `camera` sees, by the settings' size, filter, sequence and seed.
+    pub fn new(camera: &Camera, settings: &Settings) -> Self {
+        let half_height = match camera.projection {
+            Projection::Perspective { field_of_view_y } => libm::tanf(field_of_view_y / 2.0),
+            Projection::Orthographic { height } => height / 2.0,
+        };
+        Self {
+            camera: *camera,
+            width: settings.width,
+            height: settings.height,
+            filter: FilterSampler::new(settings.filter),
+            sequence: settings.sequence,
+            seed: settings.seed,
+            half_height,
+        }
+    }
+
+    /// The camera.
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
+    /// Pixels in a row.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Rows.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// Sample `index` of a pixel.
+    pub fn start(&self, pixel: [u32; 2], index: u64) -> CameraSample {
+        let sampler = Sampler::at(self.sequence, self.seed, pixel, index);
+        let [x, y, lens_u, lens_v] = sampler.group(purpose::CAMERA);
+        let column = pixel[0] as f32 + 0.5 + self.filter.offset(x);
+        let row = pixel[1] as f32 + 0.5 + self.filter.offset(y);
+        let ray = self.ray(Vec2::new(column, row), [lens_u, lens_v]);
+        CameraSample { ray, sampler }
+    }
+
+    /// The ray through a place of the picture, in pixels from its upper left corner; `lens` in the unit square.
+    pub fn ray(&self, place: Vec2, lens: [f32; 2]) -> Ray {
+        let scale = 2.0 * self.half_height / self.height as f32;
+        let x = (place.x - self.width as f32 / 2.0) * scale;
+        let y = (self.height as f32 / 2.0 - place.y) * scale;
+        let lens = if self.camera.lens_radius > 0.0 { disc(lens) * self.camera.lens_radius } else { Vec2::ZERO };
+        let distance = self.camera.focus_distance;
+        // In the camera's own axes: from the lens to the point that is sharp.
+        let (start, sharp) = match self.camera.projection {
+            Projection::Perspective { .. } => {
+                (Vec3::new(lens.x, lens.y, 0.0), Vec3::new(x * distance, y * distance, -distance))
+            }
+            Projection::Orthographic { .. } => {
+                (Vec3::new(x + lens.x, y + lens.y, 0.0), Vec3::new(x, y, -distance))
+            }
+        };
+        let direction = (self.camera.orientation * (sharp - start)).normalize();
+        Ray::new(self.camera.position + self.camera.orientation * start, direction)
+    }
+}

@@ -1,0 +1,47 @@
+//! A scene plus what is derived from it.
+
+use crate::bsdf::ConductorFresnel;
+use crate::geometry::Geometry;
+use crate::lights::Lights;
+use crate::material::metals;
+use luch_scene::Scene;
+use std::sync::Arc;
+
+/// A scene ready to be rendered: the description, trees over it, and a table of its lights.
+#[derive(Debug)]
+pub struct World {
+    /// What is drawn.
+    pub scene: Arc<Scene>,
+    /// What can be hit.
+    pub geometry: Geometry,
+    /// What shines.
+    pub lights: Lights,
+    /// For each material the reflectance of its metal.
+    pub(crate) metals: Vec<Option<ConductorFresnel>>,
+}
+
+impl World {
+    /// Builds trees and tables, on the threads of the current pool.
+    ///
+    /// # Errors
+    /// The scene's [`problems`](Scene::problems), if it has any.
+    pub fn build(scene: impl Into<Arc<Scene>>) -> Result<Self, UnsoundScene> {
+        let scene = scene.into();
+        let problems = scene.problems();
+        if !problems.is_empty() {
+            return Err(UnsoundScene { problems });
+        }
+        let geometry = Geometry::build(&scene);
+        let lights = Lights::build(&scene, geometry.bounds());
+        let metals = metals(&scene);
+        Ok(Self { scene, geometry, lights, metals })
+    }
+}
+
+/// A scene that cannot be rendered.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the scene cannot be rendered: {}", .problems.join("; "))]
+pub struct UnsoundScene {
+    /// What is wrong with it, at least one sentence.
+    pub problems: Vec<String>,
+}
