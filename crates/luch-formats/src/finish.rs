@@ -1,10 +1,10 @@
 //! The last step of every import: what the file is silent about is chosen, and the scene is checked.
 
 use crate::{LoadError, Loaded, Problem, framing_camera, neutral_sky};
-use luch_scene::{Environment, NamedCamera, Scene};
+use luch_scene::{Environment, NamedCamera, Scene, Shape};
 use std::path::Path;
 
-/// Adds a camera and light where there are none; fails if the scene has problems.
+/// Adds a camera and light where there are none; fails if the scene or one of its meshes has problems.
 pub(crate) fn finish(path: &Path, mut loaded: Loaded) -> Result<Loaded, LoadError> {
     let scene = &mut loaded.scene;
     if scene.cameras.is_empty() {
@@ -21,7 +21,12 @@ pub(crate) fn finish(path: &Path, mut loaded: Loaded) -> Result<Loaded, LoadErro
         scene.environment = Some(Environment::LatLong { image, scale, rotation: glam::Mat3::IDENTITY });
         loaded.notes.push("no light is given: a neutral sky lights everything".to_owned());
     }
-    let problems = loaded.scene.problems();
+    let mut problems = loaded.scene.problems();
+    for (place, shape) in loaded.scene.shapes.iter().enumerate() {
+        if let Shape::Mesh(mesh) = shape {
+            problems.extend(mesh.validate().iter().map(|problem| format!("mesh {place}: {problem}")));
+        }
+    }
     if problems.is_empty() {
         Ok(loaded)
     } else {

@@ -23,6 +23,8 @@ const VERSION: u32 = 1;
 /// Magic, version and length of the header.
 const PREFIX: usize = 8 + 4 + 8;
 const CHECKSUM: usize = 32;
+/// Sums have room for no more samples of a pixel.
+const MOST_SAMPLES: u64 = 1 << 33;
 /// LZ4 never makes more of a byte than this.
 const LARGEST_EXPANSION: u64 = 255;
 
@@ -190,6 +192,13 @@ fn film_of(header: &Header, sums: &[u8], at: usize) -> Result<Film, CheckpointEr
     for (tile, (done, losses)) in film.tiles.iter_mut().zip(&header.tiles) {
         if !done.is_sound() {
             return Err(damaged(PREFIX, format!("samples {done} of a tile are no set of ranges")));
+        }
+        if done.count() > MOST_SAMPLES {
+            return Err(damaged(PREFIX, format!("samples {done} of a tile, expected at most {MOST_SAMPLES} of them")));
+        }
+        let channels = done.count() * 3 * tile.sums.len() as u64;
+        if losses.saturated.checked_add(losses.invalid).is_none_or(|lost| lost > channels) {
+            return Err(damaged(PREFIX, format!("a tile lost {losses:?} of {channels} numbers")));
         }
         buffer.resize(tile.sums.len() * size_of::<PixelSums>(), 0);
         decoder.read_exact(&mut buffer).map_err(|error| damaged(at, format!("the sums cannot be read: {error}")))?;

@@ -24,6 +24,9 @@ const ENDLESS: u64 = 1 << 33;
 /// Fewest samples of a pixel at which an error estimate may end the work.
 const FEWEST_FOR_ERROR: u64 = 16;
 
+/// Least time between snapshots: some samples should be made in between.
+const SHORTEST_BETWEEN_SNAPSHOTS: Duration = Duration::from_millis(10);
+
 /// When a rendering is done: when the first of its goals is reached.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Goal {
@@ -88,7 +91,7 @@ pub struct JobPlan {
     pub goal: Goal,
     /// Worker threads; `None` for one on each processor.
     pub threads: Option<usize>,
-    /// Time between snapshots; the first is taken as soon as every pixel has a sample.
+    /// Time between snapshots, at least 10 ms; the first is taken as soon as every pixel has a sample.
     pub snapshot_every: Duration,
     /// Is shown the film at each snapshot; rendering waits for it.
     pub on_snapshot: Box<dyn FnMut(&Film, &Progress) + Send>,
@@ -189,7 +192,9 @@ impl Worker {
     fn run(mut self) -> (Film, Ending) {
         let started = Instant::now();
         let time_up = self.plan.goal.time.and_then(|time| started.checked_add(time));
-        let mut next_snapshot = started + self.plan.snapshot_every;
+        let every = self.plan.snapshot_every.max(SHORTEST_BETWEEN_SNAPSHOTS);
+        // None if that is past the end of time.
+        let mut next_snapshot = started.checked_add(every);
         let wanted = self.plan.goal.samples.clone();
         let mut end = wanted.start;
         let mut first = true;
@@ -211,7 +216,7 @@ impl Worker {
                     break 'work Ending::Time;
                 }
                 self.control.wait_while_paused();
-                let deadline = Some(time_up.map_or(next_snapshot, |moment| moment.min(next_snapshot)));
+                let deadline = [time_up, next_snapshot].into_iter().flatten().min();
                 let stop = self.control.stop(deadline);
                 let Self { pool, tracker, plan, .. } = &mut self;
                 let pass = pool.install(|| {
@@ -219,9 +224,9 @@ impl Worker {
                     render_pass(&plan.world, &plan.view, &*plan.integrator, film, range.clone(), &stop, &tracker.samples)
                 });
                 let complete = pass.is_ok();
-                if Instant::now() >= next_snapshot || (complete && first) {
+                if next_snapshot.is_some_and(|moment| Instant::now() >= moment) || (complete && first) {
                     self.snapshot();
-                    next_snapshot = Instant::now() + self.plan.snapshot_every;
+                    next_snapshot = Instant::now().checked_add(every);
                 }
                 if complete {
                     first = false;

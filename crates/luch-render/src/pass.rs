@@ -16,7 +16,8 @@ const WAVE: u64 = 4096;
 /// Adds to every pixel the samples of `range` that it does not have yet, on the threads of the current pool.
 ///
 /// `done` counts the samples as they are added. The film is valid at any moment, and what it holds depends only on which
-/// samples it has.
+/// samples it has. A request to stop is heard within a batch, whose samples are then lost; a deadline only between batches, so
+/// that however often one comes, the work goes on.
 ///
 /// # Errors
 /// [`Stopped`] if `stop` came due before all were added; the film keeps what was.
@@ -30,6 +31,7 @@ pub fn render_pass(
     done: &AtomicU64,
 ) -> Result<(), Stopped> {
     let step = film.step;
+    let on_request = stop.with_deadline(None);
     film.tiles.par_iter_mut().with_max_len(1).try_for_each(|tile| {
         let longest = (WAVE / tile.sums.len() as u64).max(1);
         while let Some(run) = tile.done.first_missing(&range, longest) {
@@ -39,7 +41,7 @@ pub fn render_pass(
                 .flat_map(|pixel| run.clone().map(move |index| view.start(pixel, index)))
                 .collect();
             let mut radiance = vec![Rgb::BLACK; samples.len()];
-            integrator.radiance(world, &samples, &mut radiance, stop)?;
+            integrator.radiance(world, &samples, &mut radiance, &on_request)?;
             add_run(tile, step, &run, &radiance);
             done.fetch_add(samples.len() as u64, Ordering::Relaxed);
         }

@@ -215,5 +215,7 @@ fn position_error(place: &Place, ray: &Ray, hit: &InstanceHit) -> Vec3 {
     let x = Vec3::from(m.x_axis).abs() * size.x;
     let y = Vec3::from(m.y_axis).abs() * size.y;
     let z = Vec3::from(m.z_axis).abs() * size.z;
-    (x + y + z + Vec3::from(place.instance.placement.translation).abs() + far) * (ROUNDINGS * EPSILON)
+    let error = (x + y + z + Vec3::from(place.instance.placement.translation).abs() + far) * (ROUNDINGS * EPSILON);
+    // A plane through the origin has no rounding across it, but a ray must not start in it either.
+    error + Vec3::splat(error.max_element() / 256.0)
 }

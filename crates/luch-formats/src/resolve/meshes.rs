@@ -16,7 +16,7 @@ pub(super) struct Meshes {
 }
 
 /// Most triangles of all meshes after reading.
-const MOST_TRIANGLES: usize = 1 << 28;
+const MOST_TRIANGLES: usize = 1 << 26;
 
 impl Resolver<'_> {
     pub(super) fn meshes(&mut self, file: &SceneFile) -> Meshes {

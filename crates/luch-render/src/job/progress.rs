@@ -97,11 +97,11 @@ impl Tracker {
         let samples = self.before + added;
         let rate = added as f64 / elapsed.as_secs_f64().max(1e-9);
         let per_pixel = samples as f64 / self.pixels as f64;
-        let wanted = Some(self.goal.samples.end - self.goal.samples.start).filter(|count| *count < super::ENDLESS);
+        let wanted = Some(self.goal.samples.end.saturating_sub(self.goal.samples.start)).filter(|count| *count < super::ENDLESS);
 
         let by_time = self.goal.time.map(|time| time.saturating_sub(elapsed));
         let after = |missing: f64| Duration::try_from_secs_f64((missing / rate).max(0.0)).ok();
-        let by_samples = wanted.and_then(|count| after((count * self.pixels) as f64 - samples as f64));
+        let by_samples = wanted.and_then(|count| after(count as f64 * self.pixels as f64 - samples as f64));
         let by_error = self.goal.relative_error.zip(error).and_then(|(goal, error)| {
             let needed = per_pixel * libm::pow(error.relative / goal, 1.0 / slope.unwrap_or(0.5));
             // Judged at doublings only.
