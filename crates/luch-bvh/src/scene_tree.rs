@@ -202,7 +202,7 @@ impl SceneTree {
         let placed = self.placed[instance as usize].as_ref()?;
         let geometry = &self.geometries[placed.geometry as usize];
         let of_world = |hit: &Hit| InstanceHit { instance, hit: Hit { t: interval.clamp(hit.t), ..*hit } };
-        let ray = placed.into_object(ray);
+        let ray = placed.toward_object(ray);
         let bound = bound_inside(&interval, bound);
         let hit = geometry
             .nearest(&ray, bound, stack, placed.cull_back, |hit| !placed.filtered || filter(&of_world(hit)));
@@ -216,7 +216,7 @@ impl SceneTree {
         let mut met = |instance: u32, interval: Interval| {
             let Some(placed) = self.placed[instance as usize].as_ref() else { return false };
             let geometry = &self.geometries[placed.geometry as usize];
-            let ray = placed.into_object(ray);
+            let ray = placed.toward_object(ray);
             geometry.any(&ray, object, placed.cull_back, |hit| {
                 let of_world = InstanceHit { instance, hit: Hit { t: interval.clamp(hit.t), ..*hit } };
                 !placed.filtered || filter(&of_world)

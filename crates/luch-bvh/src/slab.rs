@@ -61,6 +61,7 @@ pub struct Interval {
 
 impl Interval {
     /// The parameter itself, or the end it lies beyond.
+    #[inline(always)]
     pub fn clamp(&self, t: f32) -> f32 {
         let t = if t < self.near { self.near } else { t };
         if t > self.far { self.far } else { t }
@@ -86,6 +87,7 @@ pub struct SlabRay {
 impl SlabRay {
     /// Prepares a ray; `None` for one that can meet nothing: a number missing in origin or direction, a direction of
     /// length zero (no component above 2⁻¹²⁷), or `t_min <= t_max` false. A negative `t_min` counts as zero.
+    #[inline]
     pub fn new(ray: &Ray) -> Option<Self> {
         let t_min = if ray.t_min < 0.0 { 0.0 } else { ray.t_min };
         let t_max = if ray.t_max > f32::MAX { f32::MAX } else { ray.t_max };
@@ -106,6 +108,7 @@ impl SlabRay {
     }
 
     /// The piece of the ray inside the box, within the ray's own `t_min` and `t_max`.
+    #[inline(always)]
     pub fn interval(&self, bounds: &Aabb) -> Option<Interval> {
         let mut near = self.t_min;
         let mut far = self.t_max;
@@ -119,6 +122,7 @@ impl SlabRay {
     }
 
     /// Rule 2 of the theorem: moves the `t` of a hit into the interval of its own box; `None` if there is no interval.
+    #[inline(always)]
     pub fn clamp(&self, bounds: &Aabb, t: f32) -> Option<f32> {
         Some(self.interval(bounds)?.clamp(t))
     }

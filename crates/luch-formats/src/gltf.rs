@@ -69,7 +69,7 @@ fn read(file: &Path, files: &Files) -> Result<Loaded, Problem> {
     let Import { scene, notices, has_unlit, .. } = import;
     let note = "unlit materials emit their own colour, and so light what is near them";
     let notes = if has_unlit { vec![note.to_owned()] } else { Vec::new() };
-    Ok(Loaded { scene, warnings: notices.into_warnings(), notes })
+    Ok(Loaded { scene, warnings: notices.into_warnings(), notes, ..Loaded::default() })
 }
 
 /// A document on its way to a scene.

@@ -56,6 +56,7 @@ pub use framing::{bounding_sphere, framing_camera};
 pub use sky::neutral_sky;
 pub use write::{SaveError, save_image, save_mesh, write_atomically};
 
+use luch_image::tone::Tone;
 use luch_scene::Scene;
 use std::path::Path;
 
@@ -68,6 +69,17 @@ pub struct Loaded {
     pub warnings: Vec<Warning>,
     /// What was chosen because the file is silent about it, such as a camera; one sentence each.
     pub notes: Vec<String>,
+    /// What the file asks of whoever renders and shows it.
+    pub wishes: Wishes,
+}
+
+/// What a scene file asks for and a command may decide otherwise: it changes no sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Wishes {
+    /// Samples of every pixel at which the picture is done.
+    pub samples: Option<u64>,
+    /// How the picture is to be shown.
+    pub tone: Tone,
 }
 
 /// Reads the scene or mesh in a file; see [`load_with`].

@@ -67,7 +67,7 @@ pub(crate) fn load(path: &Path, files: &Files) -> Result<Loaded, LoadError> {
     let shape = scene.add_shape(Shape::Mesh(mesh));
     let placement = Affine3A::IDENTITY;
     scene.instances.push(Instance { name: String::new(), shape, materials, placement });
-    Ok(Loaded { scene, warnings, notes })
+    Ok(Loaded { scene, warnings, notes, ..Loaded::default() })
 }
 
 /// The materials of all files, by name; the first of a name counts.

@@ -74,7 +74,7 @@ impl Resolver<'_> {
         if self.report.count() > 0 {
             return Err(LoadError { problems: self.report.into_problems() });
         }
-        Ok(Loaded { scene: self.scene, warnings: self.warnings, notes: self.notes })
+        Ok(Loaded { scene: self.scene, warnings: self.warnings, notes: self.notes, wishes: file.wishes })
     }
 
     /// The path that a name in a scene file means.

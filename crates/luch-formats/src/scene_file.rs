@@ -47,6 +47,7 @@ pub(crate) struct Named<T> {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SceneFile {
     pub(crate) settings: Option<Spanned<Settings>>,
+    pub(crate) wishes: crate::Wishes,
     pub(crate) cameras: Vec<Spanned<NamedCamera>>,
     pub(crate) textures: Vec<Named<TextureSource>>,
     /// What values of materials refer to.

@@ -39,7 +39,12 @@ fn main() -> std::io::Result<()> {
     let view = View::new(&scene.cameras[0].camera, &scene.settings);
     let world = World::build(scene).expect("the preset is sound");
     let mut out = std::io::stdout().lock();
-    writeln!(out, "Cornell box, {}×{} pixels, {SAMPLES} samples each, median of {RUNS}", view.width(), view.height())?;
+    writeln!(
+        out,
+        "Cornell box, {}×{} pixels, {SAMPLES} samples each, median of {RUNS}",
+        view.width(),
+        view.height()
+    )?;
     writeln!(out, "threads  path [M/s]  plain path [M/s]  path / plain path")?;
     for threads in [1, 2] {
         let path = rate(&world, &view, &PathTracer::default(), threads);

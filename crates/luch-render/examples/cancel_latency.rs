@@ -37,6 +37,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     latencies.sort_by(f64::total_cmp);
     let (median, most) = (latencies[latencies.len() / 2], latencies[latencies.len() - 1]);
-    writeln!(std::io::stdout(), "{cancels} cancels at 1920×1080: median {median:.1} ms, longest {most:.1} ms")?;
+    writeln!(
+        std::io::stdout(),
+        "{cancels} cancels at 1920×1080: median {median:.1} ms, longest {most:.1} ms"
+    )?;
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! A tree per mesh, a tree of instances: nearest hits and visibility for batches of rays.
 
+use crate::joined::Joined;
 use crate::place::Place;
 use glam::{Mat3, Vec3};
 use luch_bvh::{Aabb, Coherence, InstanceHit, Quality, Ray, SceneTree, TriangleBvh, shape};
@@ -9,9 +10,14 @@ use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Everything of a scene that can be hit.
+///
+/// Meshes that stand in one place only share one tree in world coordinates; the others are reached through instances.
 #[derive(Debug)]
 pub struct Geometry {
     tree: SceneTree,
+    joined: Joined,
+    /// For each instance of the tree past the joined one its place in the scene.
+    others: Vec<u32>,
     /// For each instance the inverse transpose of its placement: it takes normals to the world and keeps outside outside.
     normal_maps: Vec<Mat3>,
     bounds: Aabb,
@@ -20,17 +26,38 @@ pub struct Geometry {
 impl Geometry {
     /// Builds the trees.
     pub(crate) fn build(scene: &Scene) -> Self {
-        let geometries = scene.shapes.par_iter().map(geometry_of).collect();
         let closed: Vec<bool> = match scene.settings.cull_back_faces {
             true => scene.shapes.par_iter().map(is_closed).collect(),
             false => vec![false; scene.shapes.len()],
         };
-        let instances: Vec<_> =
+        let placed: Vec<_> =
             scene.instances.iter().map(|i| placed(scene, i, closed[i.shape.index()])).collect();
+        let joined = Joined::choose(scene, &placed);
+        let others: Vec<u32> =
+            (0..scene.instances.len() as u32).filter(|i| joined.instances.binary_search(i).is_err()).collect();
+
+        // Geometry 0 is the joined one; the shapes follow, those that nobody refers to any more left empty.
+        let mut needed = vec![false; scene.shapes.len()];
+        for &other in &others {
+            needed[scene.instances[other as usize].shape.index()] = true;
+        }
+        let empty = || luch_bvh::Geometry::Triangles(Arc::new(TriangleBvh::build(&[], &[], Quality::Balanced)));
+        let mut geometries = vec![joined.geometry(scene)];
+        geometries.par_extend(
+            scene.shapes.par_iter().zip(needed).map(|(shape, needed)| if needed { geometry_of(shape) } else { empty() }),
+        );
+        let whole = luch_bvh::Instance {
+            geometry: 0,
+            placement: glam::Affine3A::IDENTITY,
+            cull_back: false,
+            filtered: false,
+        };
+        let mut instances = vec![whole];
+        instances.extend(others.iter().map(|&other| placed[other as usize]));
         let tree = SceneTree::build(geometries, &instances, Quality::Balanced);
         let normal_map = |i: &Instance| Mat3::from(i.placement.matrix3).inverse().transpose();
         let bounds = tree.bounds();
-        Self { tree, normal_maps: scene.instances.iter().map(normal_map).collect(), bounds }
+        Self { tree, joined, others, normal_maps: scene.instances.iter().map(normal_map).collect(), bounds }
     }
 
     /// A box around everything that is bounded.
@@ -53,8 +80,11 @@ impl Geometry {
         coherence: Coherence,
         key: impl Fn(usize) -> u64,
     ) {
-        let stops = |ray: usize, hit: &InstanceHit| self.stops(scene, &rays[ray], hit, || key(ray));
+        let stops = |ray: usize, hit: &InstanceHit| self.stops(scene, &rays[ray], &self.in_scene(*hit), || key(ray));
         self.tree.nearest_filtered_batch(rays, hits, coherence, stops);
+        for hit in hits.iter_mut().flatten() {
+            *hit = self.in_scene(*hit);
+        }
     }
 
     /// Whether something stands in the way of each ray; `key` as in [`Geometry::nearest_hits`].
@@ -66,13 +96,22 @@ impl Geometry {
         coherence: Coherence,
         key: impl Fn(usize) -> u64,
     ) {
-        let stops = |ray: usize, hit: &InstanceHit| self.stops(scene, &rays[ray], hit, || key(ray));
+        let stops = |ray: usize, hit: &InstanceHit| self.stops(scene, &rays[ray], &self.in_scene(*hit), || key(ray));
         self.tree.any_filtered_batch(rays, occluded, coherence, stops);
     }
 
     /// The nearest hit of one ray.
     pub fn nearest_hit(&self, scene: &Scene, ray: &Ray, key: u64) -> Option<InstanceHit> {
-        self.tree.nearest_filtered(ray, |hit| self.stops(scene, ray, hit, || key))
+        let hit = self.tree.nearest_filtered(ray, |hit| self.stops(scene, ray, &self.in_scene(*hit), || key));
+        hit.map(|hit| self.in_scene(hit))
+    }
+
+    /// A hit of the tree, told by the scene's instances and their primitives.
+    fn in_scene(&self, hit: InstanceHit) -> InstanceHit {
+        match hit.instance.checked_sub(1) {
+            None => self.joined.in_scene(hit),
+            Some(other) => InstanceHit { instance: self.others[other as usize], ..hit },
+        }
     }
 
     /// Whether a surface that is not there everywhere stops the ray: a pure function of ray, hit and key.
@@ -140,7 +179,7 @@ fn placed(scene: &Scene, instance: &Instance, closed: bool) -> luch_bvh::Instanc
     // Lecture 84: faces seen from behind are skipped where no ray can meet them first anyway.
     let hidden = closed && !cut_out && !materials().any(|m| transmits(scene, m)) && no_camera_inside(scene, instance);
     luch_bvh::Instance {
-        geometry: instance.shape.index() as u32,
+        geometry: instance.shape.index() as u32 + 1,
         placement: instance.placement,
         cull_back: all_front || hidden,
         filtered: cut_out || (any_front && !all_front),

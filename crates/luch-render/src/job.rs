@@ -77,6 +77,9 @@ pub struct JobEnd {
     pub progress: Progress,
 }
 
+/// What is done with the film at each snapshot.
+pub type OnSnapshot = Box<dyn FnMut(&Film, &Progress) + Send>;
+
 /// What to do, from now on, in a thread of its own.
 pub struct JobPlan {
     /// What is rendered.
@@ -94,7 +97,7 @@ pub struct JobPlan {
     /// Time between snapshots, at least 10 ms; the first is taken as soon as every pixel has a sample.
     pub snapshot_every: Duration,
     /// Is shown the film at each snapshot; rendering waits for it.
-    pub on_snapshot: Box<dyn FnMut(&Film, &Progress) + Send>,
+    pub on_snapshot: OnSnapshot,
 }
 
 /// A rendering under way.

@@ -38,6 +38,7 @@ mod fingerprint;
 mod geometry;
 pub mod integrator;
 mod job;
+mod joined;
 mod lights;
 mod material;
 mod merge;
@@ -60,7 +61,7 @@ pub use film::{Coverage, ErrorEstimate, Film, Losses, PixelEstimate, TILE, Tile}
 pub use fingerprint::Fingerprint;
 pub use geometry::Geometry;
 pub use integrator::{Inspect, Integrator, Occlusion, PathTracer, PlainPathTracer, from_settings};
-pub use job::{Ending, Goal, JobEnd, JobPlan, Progress, RenderJob, StartError};
+pub use job::{Ending, Goal, JobEnd, JobPlan, OnSnapshot, Progress, RenderJob, StartError};
 pub use lights::{FoundLight, Lights};
 pub use material::{bsdf_at, emitted};
 pub use merge::MergeError;

@@ -95,7 +95,7 @@ pub(crate) fn metals(scene: &Scene) -> Vec<Option<ConductorFresnel>> {
 
 /// A number from a texture, kept between 0 and 1; NaN is 0.
 fn unit(value: f32) -> f32 {
-    value.max(0.0).min(1.0)
+    if value > 0.0 { value.min(1.0) } else { 0.0 }
 }
 
 /// A colour from a texture, kept between 0 and 1.

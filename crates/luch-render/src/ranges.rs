@@ -40,7 +40,7 @@ impl Ranges {
         let last = self.0.partition_point(|r| r.start <= new.end);
         let start = self.0.get(first).map_or(new.start, |r| r.start.min(new.start));
         let end = last.checked_sub(1).and_then(|i| self.0.get(i)).map_or(new.end, |r| r.end.max(new.end));
-        self.0.splice(first..last.max(first), [start..end]);
+        self.0.splice(first..last.max(first), std::iter::once(start..end));
     }
 
     /// Whether any index of `other` is in the set.

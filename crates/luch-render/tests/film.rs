@@ -1,5 +1,10 @@
 //! What the film promises: exact sums, honest errors, nothing lost in silence.
 
+#![expect(
+    clippy::single_range_in_vec_init,
+    reason = "samples are given as lists of ranges, some of which have one"
+)]
+
 mod film {
     pub(crate) mod pattern;
 }
@@ -26,7 +31,6 @@ fn sums_are_those_of_integers() {
     render(&mut film, &view, &Pattern::Wild, 0..21);
     let losses = film.losses();
     let mut seen = luch_render::Losses::default();
-    let mut place = 0;
     let mut expected = Vec::new();
     for y in 0..35 {
         for x in 0..37 {
@@ -37,9 +41,8 @@ fn sums_are_those_of_integers() {
         assert_eq!(count, 21);
         estimate.mean
     });
-    for (mean, expected) in means.pixels().iter().zip(&expected) {
+    for (place, (mean, expected)) in means.pixels().iter().zip(&expected).enumerate() {
         assert_eq!(mean.map(f64::to_bits), expected.map(f64::to_bits), "pixel {place}");
-        place += 1;
     }
     assert_eq!(losses, seen);
     assert!(losses.saturated > 100 && losses.invalid > 100 && !losses.is_none());
@@ -110,10 +113,17 @@ fn streams_are_even_and_odd_and_count_alike() {
     for range in [0..2, 0..7, 1..2, 3..12] {
         let mut film = Film::new(3, 2);
         render(&mut film, &view, &Pattern::Parity, range.clone());
-        let (even, odd) = (range.clone().filter(|i| i % 2 == 0).count(), range.clone().filter(|i| i % 2 == 1).count());
+        let (even, odd) =
+            (range.clone().filter(|i| i % 2 == 0).count(), range.clone().filter(|i| i % 2 == 1).count());
         film.read(|estimate, count| {
             assert_eq!(count as usize, even + odd);
-            let mean = if even == 0 { 3.0 } else if odd == 0 { 1.0 } else { 2.0 };
+            let mean = if even == 0 {
+                3.0
+            } else if odd == 0 {
+                1.0
+            } else {
+                2.0
+            };
             assert_eq!(estimate.mean, [mean; 3], "{range:?}");
             // ((1 − 3) / 2)²
             assert_eq!(estimate.variance, (even > 0 && odd > 0).then_some([1.0; 3]), "{range:?}");
@@ -151,8 +161,8 @@ fn the_error_is_honest_for_every_sequence() {
             render(&mut film, &view, &Pattern::Step, 0..count);
             let (mut difference, mut variance) = (Estimate::new(), Estimate::new());
             film.read(|estimate, _| {
-                let true_square = (estimate.mean[0] - Pattern::STEP_MEAN).powi(2);
-                difference.add(estimate.variance.unwrap()[0] - true_square);
+                let off = estimate.mean[0] - Pattern::STEP_MEAN;
+                difference.add(estimate.variance.unwrap()[0] - off * off);
                 variance.add(estimate.variance.unwrap()[0]);
             });
             let z = difference.z_score(0.0).unwrap();
@@ -211,7 +221,7 @@ fn a_film_says_what_it_holds() {
     assert_eq!(film.total_samples(), 70 * 40 * 8 + count.into_inner());
     assert_eq!((film.min_samples(), film.gaps()), (8, ranges(&[4..10])));
     let counts = film.sample_counts();
-    assert!(counts.pixels().contains(&8.0) && counts.pixels().contains(&14.0) | counts.pixels().contains(&12.0));
+    assert!(counts.pixels().contains(&8.0) && counts.pixels().iter().any(|count| *count > 8.0));
     // And go on as if nothing had been.
     render(&mut film, &view, &Pattern::Uniform, 0..14);
     let mut straight = Film::new(70, 40);
@@ -247,9 +257,8 @@ fn a_merge_that_overlaps_in_one_tile_changes_none() {
         let stop = Stop::new();
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
         let integrator = StopAfter::new(Pattern::Uniform, batches, &stop);
-        let pass = pool.install(|| {
-            render_pass(&world, &view, &integrator, &mut film, 0..4, &stop, &AtomicU64::new(0))
-        });
+        let pass = pool
+            .install(|| render_pass(&world, &view, &integrator, &mut film, 0..4, &stop, &AtomicU64::new(0)));
         assert!(pass.is_err());
         film
     };
@@ -266,7 +275,8 @@ fn the_picture_is_made_of_means() {
     let view = luch_render::View::new(&scene.cameras[0].camera, &scene.settings);
     let world = World::build(scene).unwrap();
     let mut film = Film::new(20, 12);
-    render_pass(&world, &view, &PathTracer::default(), &mut film, 0..8, &Stop::new(), &AtomicU64::new(0)).unwrap();
+    render_pass(&world, &view, &PathTracer::default(), &mut film, 0..8, &Stop::new(), &AtomicU64::new(0))
+        .unwrap();
     let (picture, error) = (film.to_image(), film.standard_error());
     let means = film.read(|estimate, _| Some(estimate));
     for ((color, error), estimate) in picture.pixels().iter().zip(error.pixels()).zip(means.pixels()) {

@@ -10,6 +10,8 @@ pub(super) struct Placed {
     /// Rows of the linear part of the map from the world into the geometry's space.
     linear: [Vec3; 3],
     translation: Vec3,
+    /// Whether the placement changes nothing, so that rays need not be taken anywhere.
+    is_identity: bool,
     pub(super) geometry: u32,
     pub(super) cull_back: bool,
     pub(super) filtered: bool,
@@ -23,12 +25,16 @@ impl Placed {
         let Instance { geometry: index, placement, cull_back, filtered } = *instance;
         let (linear, translation) = inverse(&placement)?;
         let bounds = geometry.bounds().map(|bounds| bounds.transformed(&placement));
-        Some(Self { linear, translation, geometry: index, cull_back, filtered, bounds })
+        let is_identity = placement == Affine3A::IDENTITY;
+        Some(Self { linear, translation, is_identity, geometry: index, cull_back, filtered, bounds })
     }
 
     /// The same ray in the space of the geometry; `t` keeps its meaning.
     #[inline(always)]
-    pub(super) fn into_object(self, ray: &Ray) -> Ray {
+    pub(super) fn toward_object(&self, ray: &Ray) -> Ray {
+        if self.is_identity {
+            return *ray;
+        }
         let rows = |vector: Vec3| Vec3::from_array(self.linear.map(|row| row.dot(vector)));
         Ray { origin: rows(ray.origin) + self.translation, direction: rows(ray.direction), ..*ray }
     }

@@ -4,11 +4,18 @@ use super::decoder::Decoder;
 use super::fields::Fields;
 use super::value::Range;
 use super::{Spanned, fields::Argument};
+use luch_image::tone::{Curve, Tone};
 use luch_sampling::Sequence;
 use luch_scene::{Filter, Integrator, Normals, Property, Settings};
 
 /// Most pixels along a side.
 const LONGEST_SIDE: u64 = 1 << 16;
+
+/// Most samples of a pixel: what one randomisation has.
+const MOST_SAMPLES: u64 = 1 << 33;
+
+/// Stops by which a picture may be made brighter or darker.
+const EXPOSURES: Range = Range { least: -64.0, most: 64.0, with_least: true, with_most: true };
 
 /// Most scatterings of a path that can be asked for.
 const DEEPEST_PATH: u64 = 1 << 20;
@@ -65,6 +72,13 @@ impl Decoder<'_> {
         let normals = [("smooth", Normals::Interpolated), ("flat", Normals::Flat)];
         settings.normals = self.word_or(&mut fields, "normals", &normals, settings.normals);
         settings.cull_back_faces = self.flag_or(&mut fields, "cull-back-faces", settings.cull_back_faces);
+        let samples = self.whole_or(&mut fields, "samples", 1, MOST_SAMPLES, 0);
+        self.scene.wishes.samples = (samples > 0).then_some(samples);
+        let curves = Curve::ALL.map(|curve| (curve.name(), curve));
+        self.scene.wishes.tone = Tone {
+            exposure: self.number_or(&mut fields, "exposure", EXPOSURES, 0.0),
+            curve: self.word_or(&mut fields, "tone", &curves, Curve::Linear),
+        };
         fields.finish(self, "setting");
         self.scene.settings = Some(Spanned { value: settings, span });
     }

@@ -87,8 +87,8 @@ impl EnvironmentEmitter {
             Self::Constant(radiance) => radiance.luminance(),
             Self::LatLong(map) => map.mean,
         };
-        // Irradiance π L all over the ball around the scene.
-        PI * mean * 4.0 * PI * scene_radius * scene_radius
+        // Irradiance π L on a great circle of the ball around the scene, as for a sun.
+        PI * mean * PI * scene_radius * scene_radius
     }
 }
 

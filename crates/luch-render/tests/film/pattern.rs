@@ -101,7 +101,8 @@ pub(crate) fn render(film: &mut Film, view: &View, integrator: &dyn Integrator, 
     let mut scene = luch_scene::Scene::default();
     scene.add_camera(*view.camera());
     let world = World::build(scene).expect("an empty scene is sound");
-    render_pass(&world, view, integrator, film, range, &Stop::new(), &AtomicU64::new(0)).expect("nobody stops it");
+    render_pass(&world, view, integrator, film, range, &Stop::new(), &AtomicU64::new(0))
+        .expect("nobody stops it");
 }
 
 /// The mean of a pixel by integers wide enough for anything, in steps of 2⁻³⁶, cut at 2⁶² steps.
@@ -116,7 +117,9 @@ pub(crate) fn expected_mean(
     for index in range {
         let stream = (index % 2) as usize;
         counts[stream] += 1;
-        for (sum, value) in sums[stream].iter_mut().zip(pattern.value(&view.start(pixel, index).sampler).to_array()) {
+        for (sum, value) in
+            sums[stream].iter_mut().zip(pattern.value(&view.start(pixel, index).sampler).to_array())
+        {
             match units(value) {
                 None => losses.invalid += 1,
                 Some(units) if units.abs() > 1 << 62 => {
@@ -128,7 +131,8 @@ pub(crate) fn expected_mean(
         }
     }
     let unit = 1.0 / (1_u64 << 36) as f64;
-    let mean = |stream: usize, channel: usize| sums[stream][channel] as f64 * unit / f64::from(counts[stream]);
+    let mean =
+        |stream: usize, channel: usize| sums[stream][channel] as f64 * unit / f64::from(counts[stream]);
     [0, 1, 2].map(|channel| (mean(0, channel) + mean(1, channel)) / 2.0)
 }
 
