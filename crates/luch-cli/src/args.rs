@@ -2,12 +2,13 @@
 
 mod render;
 
-pub(crate) use render::{PictureArgs, ProgressStyle, RenderArgs, WorkArgs};
+pub(crate) use render::{PictureArgs, ProgressStyle, RenderArgs};
 
 use crate::parse;
 use clap::{Args, Parser, Subcommand};
 use luch::image::tone::Curve;
 use std::path::PathBuf;
+use std::sync::LazyLock;
 
 /// A progressive, deterministic path tracer.
 #[derive(Debug, Parser)]
@@ -57,7 +58,9 @@ pub(crate) struct DisplayArgs {
 /// itself. Renders exactly these samples again and compares. The scene is looked for where it was, then beside the picture.
 /// Exit status 0 if equal, 1 if different.
 #[derive(Args, Debug)]
-#[command(after_long_help = "Examples:\n  luch reproduce lecture.png\n  luch reproduce lecture.exr --scene moved/lecture.kdl")]
+#[command(
+    after_long_help = "Examples:\n  luch reproduce lecture.png\n  luch reproduce lecture.exr --scene moved/lecture.kdl"
+)]
 pub(crate) struct ReproduceArgs {
     /// A picture or film made by luch
     pub(crate) file: PathBuf,
@@ -74,7 +77,9 @@ pub(crate) struct ReproduceArgs {
 /// The films must be of the same scene, camera and settings, and no sample may be in two of them. The sum does not depend on the
 /// order: it has the same bits as a film rendered in one go.
 #[derive(Args, Debug)]
-#[command(after_long_help = "Examples:\n  luch render scene.kdl --samples 0..64 -o a.luch      (on one machine)\n  luch render scene.kdl --samples 64..128 -o b.luch    (on another)\n  luch merge a.luch b.luch -o ab.luch\n  luch develop ab.luch -o scene.png")]
+#[command(
+    after_long_help = "Examples:\n  luch render scene.kdl --samples 0..64 -o a.luch      (on one machine)\n  luch render scene.kdl --samples 64..128 -o b.luch    (on another)\n  luch merge a.luch b.luch -o ab.luch\n  luch develop ab.luch -o scene.png"
+)]
 pub(crate) struct MergeArgs {
     /// Films to join
     #[arg(required = true, value_name = "FILM")]
@@ -91,7 +96,9 @@ pub(crate) struct MergeArgs {
 ///
 /// Exposure and curve are those of the rendering unless others are given. An EXR gets the layers `stderr` and `samples`.
 #[derive(Args, Debug)]
-#[command(after_long_help = "Examples:\n  luch develop scene.luch -o scene.png --exposure 1 --tone agx\n  luch develop scene.luch -o scene.exr -o scene.png --depth 16")]
+#[command(
+    after_long_help = "Examples:\n  luch develop scene.luch -o scene.png --exposure 1 --tone agx\n  luch develop scene.luch -o scene.exr -o scene.png --depth 16"
+)]
 pub(crate) struct DevelopArgs {
     /// A film (.luch)
     pub(crate) film: PathBuf,
@@ -107,7 +114,9 @@ pub(crate) struct DevelopArgs {
 /// Measures are of linear light; PSNR and SSIM are of what a screen would show. Films (.luch) may be compared as well. Exit status 1 if a
 /// limit is exceeded.
 #[derive(Args, Debug)]
-#[command(after_long_help = "Examples:\n  luch compare noisy.exr reference.exr\n  luch compare a.png b.png -o difference.png\n  luch compare new.exr golden.exr --max-rel-mse 0.001 --json")]
+#[command(
+    after_long_help = "Examples:\n  luch compare noisy.exr reference.exr\n  luch compare a.png b.png -o difference.png\n  luch compare new.exr golden.exr --max-rel-mse 0.001 --json"
+)]
 pub(crate) struct CompareArgs {
     /// The picture
     pub(crate) a: PathBuf,
@@ -146,14 +155,21 @@ pub(crate) struct CheckArgs {
 
 /// Write completions for a shell
 #[derive(Args, Debug)]
-#[command(after_long_help = "Example:\n  luch completions bash > ~/.local/share/bash-completion/completions/luch")]
+#[command(
+    after_long_help = "Example:\n  luch completions bash > ~/.local/share/bash-completion/completions/luch"
+)]
 pub(crate) struct CompletionsArgs {
     /// The shell
     pub(crate) shell: clap_complete::Shell,
 }
 
 /// The version and what this build can do.
-fn long_version() -> String {
+fn long_version() -> &'static str {
+    static TEXT: LazyLock<String> = LazyLock::new(describe_build);
+    &TEXT
+}
+
+fn describe_build() -> String {
     let formats = luch::image::codec::Format::ALL;
     let written = formats.iter().filter(|format| format.can_write()).map(|format| format.name());
     let sequences = luch::sampling::Sequence::ALL.map(luch::sampling::Sequence::name).join(", ");

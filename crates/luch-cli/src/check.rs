@@ -55,7 +55,9 @@ fn bounds(scene: &Scene) -> Aabb {
     for instance in &scene.instances {
         let own = match &scene.shapes[instance.shape.index()] {
             Shape::Mesh(mesh) => mesh.bounds(),
-            Shape::Sphere { radius } => Aabb::of_points([-glam::Vec3::splat(*radius), glam::Vec3::splat(*radius)]),
+            Shape::Sphere { radius } => {
+                Aabb::of_points([-glam::Vec3::splat(*radius), glam::Vec3::splat(*radius)])
+            }
             Shape::Disc { radius } => {
                 let corner = glam::Vec3::new(*radius, 0.0, *radius);
                 Aabb::of_points([-corner, corner])

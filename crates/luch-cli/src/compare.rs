@@ -32,7 +32,8 @@ pub(crate) fn run(args: &CompareArgs) -> Result<Outcome, Failure> {
     if let Some(path) = &args.output {
         // White is the largest mean difference of a pixel.
         let differences = luch::image::compare::absolute_difference(&a, &b)?;
-        let most = differences.pixels().iter().map(Rgb::mean).filter(|v| v.is_finite()).fold(0.0, f32::max);
+        let most =
+            differences.pixels().iter().map(|p| p.mean()).filter(|v| v.is_finite()).fold(0.0, f32::max);
         let full = if most > 0.0 { most } else { 1.0 };
         let metadata = Metadata::from([("luch:white", full.to_string())]);
         save_image(path, &false_difference(&a, &b, full)?, &Tone::default(), &metadata)?;
@@ -46,7 +47,8 @@ fn read(path: &Path) -> Result<Image<Rgb>, Failure> {
         return Ok(film_file::read(path)?.film.to_image());
     }
     let bytes = Files::disk().read(path).map_err(|problem| Failure::new(problem.to_string()))?;
-    let bitmap = codec::decode(&bytes, None).map_err(|error| Failure::new(format!("{}: {error}", path.display())))?;
+    let bitmap =
+        codec::decode(&bytes, None).map_err(|error| Failure::new(format!("{}: {error}", path.display())))?;
     Ok(bitmap.to_rgb())
 }
 
@@ -85,7 +87,10 @@ fn report(comparison: &Comparison) {
     terminal::say(&format!("{:<26} {b}", "mean of the second"));
     if let Some(place) = comparison.largest {
         let difference = terminal::short(place.difference);
-        terminal::say(&format!("{:<26} {difference} at pixel ({}, {})", "largest difference", place.x, place.y));
+        terminal::say(&format!(
+            "{:<26} {difference} at pixel ({}, {})",
+            "largest difference", place.x, place.y
+        ));
     }
     if comparison.non_finite > 0 {
         terminal::say(&format!("{:<26} {}", "pixels not finite", comparison.non_finite));

@@ -16,7 +16,10 @@ pub(crate) fn run(args: &DevelopArgs) -> Result<Outcome, Failure> {
     let pen = Interrupt::install()?.pen();
     let outputs = Outputs::new(&args.output, args.display.depth)?;
     if let Some(film) = outputs.films().next() {
-        return Err(Failure::usage(format!("{}: a film is developed into pictures, not into films", film.display())));
+        return Err(Failure::usage(format!(
+            "{}: a film is developed into pictures, not into films",
+            film.display()
+        )));
     }
     args.output.iter().try_for_each(|path| outputs::probe(path))?;
     let Checkpoint { fingerprint, mut provenance, film } = film_file::read(&args.film)?;

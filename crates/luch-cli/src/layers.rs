@@ -103,8 +103,11 @@ fn property_layer(property: Property, image: &Image<Rgb>) -> Layer {
     match property {
         Property::Depth => Layer::from_plane(name, "Z", plane(|p| p.r)),
         Property::Normal | Property::GeometricNormal => {
-            let channels =
-                vec![("X".to_owned(), plane(|p| p.r)), ("Y".to_owned(), plane(|p| p.g)), ("Z".to_owned(), plane(|p| p.b))];
+            let channels = vec![
+                ("X".to_owned(), plane(|p| p.r)),
+                ("Y".to_owned(), plane(|p| p.g)),
+                ("Z".to_owned(), plane(|p| p.b)),
+            ];
             Layer { name: name.to_owned(), channels }
         }
         _ => Layer::from_rgb(name, image),

@@ -11,7 +11,10 @@ use std::path::{Path, PathBuf};
 
 pub(crate) fn run(args: &MergeArgs) -> Result<Outcome, Failure> {
     if !film_file::is_film(&args.output) {
-        return Err(Failure::usage(format!("{}: a merged film is a film: let it end in .luch", args.output.display())));
+        return Err(Failure::usage(format!(
+            "{}: a merged film is a film: let it end in .luch",
+            args.output.display()
+        )));
     }
     outputs::probe(&args.output)?;
     let (first, rest) = args.films.split_first().ok_or_else(|| Failure::usage("name the films to join"))?;
@@ -33,7 +36,11 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Outcome, Failure> {
     whole.provenance.command = command(&args.films, &args.output);
     write_atomically(&args.output, &whole.encode())?;
     let mean = terminal::short(whole.film.mean_samples());
-    terminal::say(&format!("{}: {} films, {mean} samples per pixel", args.output.display(), args.films.len()));
+    terminal::say(&format!(
+        "{}: {} films, {mean} samples per pixel",
+        args.output.display(),
+        args.films.len()
+    ));
     Ok(Outcome::Done)
 }
 
@@ -46,9 +53,9 @@ fn command(films: &[PathBuf], output: &Path) -> String {
 
 /// The films that quarrel by name: for an overlap the one among those joined before that holds the same samples.
 fn explain(error: &CheckpointError, part: &Checkpoint, path: &Path, joined: &[&Path]) -> Failure {
-    let culprit = joined.iter().find(|earlier| {
-        film_file::read(earlier).is_ok_and(|mut earlier| earlier.merge(part).is_err())
-    });
+    let culprit = joined
+        .iter()
+        .find(|earlier| film_file::read(earlier).is_ok_and(|mut earlier| earlier.merge(part).is_err()));
     let other = culprit.unwrap_or(&joined[0]);
     Failure::new(format!("{} and {} cannot be joined: {error}", other.display(), path.display()))
 }

@@ -100,7 +100,10 @@ impl Outputs {
             Format::Exr | Format::Bmp | Format::Tga => {
                 let mut all = vec![Layer::from_rgb("", image)];
                 all.extend(layers.iter().cloned());
-                codec::encode_exr(&Layers { width: image.width(), height: image.height(), layers: all }, metadata)
+                codec::encode_exr(
+                    &Layers { width: image.width(), height: image.height(), layers: all },
+                    metadata,
+                )
             }
         }
     }
@@ -130,7 +133,11 @@ pub(crate) fn probe(path: &Path) -> Result<(), Failure> {
         _ => Path::new("."),
     };
     if !folder.is_dir() {
-        return Err(Failure::new(format!("{}: the folder {} does not exist", path.display(), folder.display())));
+        return Err(Failure::new(format!(
+            "{}: the folder {} does not exist",
+            path.display(),
+            folder.display()
+        )));
     }
     let trial = folder.join(format!(".luch-trial-{}", std::process::id()));
     let written = std::fs::write(&trial, b"luch").and_then(|()| std::fs::remove_file(&trial));

@@ -73,14 +73,18 @@ pub(crate) fn fraction(text: &str) -> Result<f64, String> {
         return Err(wrong());
     }
     if value >= 1.0 {
-        return Err(format!("`{text}` is an error of all the light or more; if you mean percent, write {number}%"));
+        return Err(format!(
+            "`{text}` is an error of all the light or more; if you mean percent, write {number}%"
+        ));
     }
     Ok(value)
 }
 
 /// `64..128`: the first index and the one after the last.
 pub(crate) fn samples(text: &str) -> Result<Range<u64>, String> {
-    let wrong = || format!("`{text}` is no range of samples; write the first and the one after the last, such as 0..64");
+    let wrong = || {
+        format!("`{text}` is no range of samples; write the first and the one after the last, such as 0..64")
+    };
     let (start, end) = text.split_once("..").ok_or_else(wrong)?;
     let start: u64 = start.trim().parse().map_err(|_| wrong())?;
     let end: u64 = end.trim().parse().map_err(|_| wrong())?;
@@ -105,7 +109,8 @@ pub(crate) fn sample_count(text: &str) -> Result<u64, String> {
 
 /// A display curve.
 pub(crate) fn curve(text: &str) -> Result<Curve, String> {
-    Curve::from_name(text).ok_or_else(|| format!("`{text}` is no display curve; accepted are {}", Curve::names()))
+    Curve::from_name(text)
+        .ok_or_else(|| format!("`{text}` is no display curve; accepted are {}", Curve::names()))
 }
 
 /// A sample sequence.

@@ -129,12 +129,13 @@ impl Reporter {
     fn share(&self, progress: &Progress) -> Option<f64> {
         let by_samples = progress.samples_wanted.map(|wanted| progress.samples_per_pixel / wanted as f64);
         let by_time = self.time.map(|time| progress.elapsed.as_secs_f64() / time.as_secs_f64());
-        let known = [by_samples, by_time].into_iter().flatten().fold(None, |most: Option<f64>, share| {
-            Some(most.map_or(share, |most| most.max(share)))
-        });
-        let guessed = progress.remaining.map(|left| {
-            progress.elapsed.as_secs_f64() / (progress.elapsed + left).as_secs_f64().max(1e-9)
-        });
+        let known = [by_samples, by_time]
+            .into_iter()
+            .flatten()
+            .fold(None, |most: Option<f64>, share| Some(most.map_or(share, |most| most.max(share))));
+        let guessed = progress
+            .remaining
+            .map(|left| progress.elapsed.as_secs_f64() / (progress.elapsed + left).as_secs_f64().max(1e-9));
         known.or(guessed).map(|share| share.clamp(0.0, 1.0))
     }
 }

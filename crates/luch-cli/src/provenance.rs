@@ -80,7 +80,8 @@ fn samples_text(film: &Film) -> String {
         None => "uneven".to_owned(),
         Some([run]) => run.samples.to_string(),
         Some(runs) => {
-            let words: Vec<String> = runs.iter().map(|run| format!("{} *{}", run.samples, run.tiles)).collect();
+            let words: Vec<String> =
+                runs.iter().map(|run| format!("{} *{}", run.samples, run.tiles)).collect();
             words.join("; ")
         }
     }
@@ -99,7 +100,9 @@ fn read_samples(text: &str, tiles: usize) -> Option<Vec<TileRun>> {
     let mut left = tiles;
     for word in text.split(';') {
         let run = match word.split_once('*') {
-            Some((samples, count)) => TileRun { samples: ranges(samples)?, tiles: count.trim().parse().ok()? },
+            Some((samples, count)) => {
+                TileRun { samples: ranges(samples)?, tiles: count.trim().parse().ok()? }
+            }
             None => TileRun { samples: ranges(word)?, tiles },
         };
         left = left.checked_sub(run.tiles)?;
@@ -126,7 +129,8 @@ impl Claim {
             metadata(&provenance, &fingerprint, &film)
         } else {
             let bytes = Files::disk().read(path).map_err(|problem| Failure::new(problem.to_string()))?;
-            codec::read_metadata(&bytes).map_err(|error| Failure::new(format!("{}: {error}", path.display())))?
+            codec::read_metadata(&bytes)
+                .map_err(|error| Failure::new(format!("{}: {error}", path.display())))?
         };
         let text = |key: &str| {
             texts.get(key).map(str::to_owned).ok_or_else(|| {
@@ -140,7 +144,9 @@ impl Claim {
         let samples = text("luch:samples")?;
         let samples = read_samples(&samples, tiles).ok_or_else(|| {
             let file = path.display();
-            Failure::new(format!("{file}: `luch:samples` does not say which samples each tile holds: `{samples}`"))
+            Failure::new(format!(
+                "{file}: `luch:samples` does not say which samples each tile holds: `{samples}`"
+            ))
         })?;
         Ok(Self {
             scene: text("luch:scene")?,

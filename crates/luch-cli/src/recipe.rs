@@ -89,8 +89,17 @@ impl Recipe {
 
     /// What was typed goes before what was there.
     pub(crate) fn change(&mut self, picture: &PictureArgs) -> Result<(), Failure> {
-        let PictureArgs { size, seed, camera, integrator, max_depth, sequence, filter, normals, cull_back_faces } =
-            picture;
+        let PictureArgs {
+            size,
+            seed,
+            camera,
+            integrator,
+            max_depth,
+            sequence,
+            filter,
+            normals,
+            cull_back_faces,
+        } = picture;
         if let Some(Size { width, height }) = size {
             self.size = format!("{width}x{height}");
         }
@@ -175,7 +184,9 @@ impl Recipe {
         let before = serde_json::to_value(before).unwrap_or_default();
         let fields = now.as_object().into_iter().flatten();
         fields
-            .filter(|(name, value)| !["exposure", "tone", "goal"].contains(&name.as_str()) && before[*name] != **value)
+            .filter(|(name, value)| {
+                !["exposure", "tone", "goal"].contains(&name.as_str()) && before[*name] != **value
+            })
             .map(|(name, value)| format!("{name} is {value}, was {}", before[name]))
             .collect()
     }
@@ -188,8 +199,9 @@ impl Recipe {
     /// Puts the settings into a scene and finds the camera.
     pub(crate) fn apply(&self, scene: &mut Scene) -> Result<Camera, Failure> {
         // A camera that was chosen because the file has none shows everything in any shape of picture.
-        let is_framing =
-            |scene: &Scene| scene.cameras.len() == 1 && luch::formats::framing_camera(scene).0 == scene.cameras[0].camera;
+        let is_framing = |scene: &Scene| {
+            scene.cameras.len() == 1 && luch::formats::framing_camera(scene).0 == scene.cameras[0].camera
+        };
         let reframe = is_framing(scene);
         scene.settings = self.settings()?;
         if reframe {
@@ -198,7 +210,10 @@ impl Recipe {
         let pixels = u64::from(scene.settings.width) * u64::from(scene.settings.height);
         let most = luch::image::codec::MAX_PIXELS;
         if pixels > most {
-            return Err(Failure::new(format!("a picture of {} has {pixels} pixels, at most {most} are made", self.size)));
+            return Err(Failure::new(format!(
+                "a picture of {} has {pixels} pixels, at most {most} are made",
+                self.size
+            )));
         }
         scene.camera(self.camera.as_deref()).copied().ok_or_else(|| {
             let name = self.camera.as_deref().unwrap_or("");

@@ -40,9 +40,14 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<Outcome, Failure> {
         terminal::say(&format!("equal: the light has the same bits (digest {})", head(&digest)));
         return Ok(Outcome::Done);
     }
-    let mut text = format!("different: the light has other bits (digest {} then, {} now)", head(&claim.digest), head(&digest));
+    let mut text = format!(
+        "different: the light has other bits (digest {} then, {} now)",
+        head(&claim.digest),
+        head(&digest)
+    );
     if claim.version != env!("CARGO_PKG_VERSION") {
-        text += &format!("; the program was version {} then, {} now", claim.version, env!("CARGO_PKG_VERSION"));
+        text +=
+            &format!("; the program was version {} then, {} now", claim.version, env!("CARGO_PKG_VERSION"));
     }
     if let Some(stored) = stored_light(&args.file)
         && let Ok(comparison) = compare(&again, &stored)

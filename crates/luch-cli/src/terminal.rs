@@ -74,7 +74,11 @@ pub(crate) fn clock(time: std::time::Duration) -> String {
 pub(crate) fn command_line(words: impl IntoIterator<Item = String>) -> String {
     let plain = |c: char| c.is_alphanumeric() || "-_./:=,+@%".contains(c);
     let quoted = |word: String| {
-        if !word.is_empty() && word.chars().all(plain) { word } else { format!("'{}'", word.replace('\'', r"'\''")) }
+        if !word.is_empty() && word.chars().all(plain) {
+            word
+        } else {
+            format!("'{}'", word.replace('\'', r"'\''"))
+        }
     };
     words.into_iter().map(quoted).collect::<Vec<_>>().join(" ")
 }
@@ -86,7 +90,10 @@ mod tests {
 
     #[test]
     fn numbers_are_short() {
-        assert_eq!([0.0, 1.2345, 0.01234, 123.4, 1e-9].map(short), ["0", "1.23", "0.01234", "123", "1.00e-9"]);
+        assert_eq!(
+            [0.0, 1.2345, 0.01234, 123.4, 1e-9].map(short),
+            ["0", "1.23", "0.01234", "123", "1.00e-9"]
+        );
         assert_eq!([12.0, 4.21e6].map(metric), ["12 ", "4.2 M"]);
         assert_eq!([7, 754, 3723].map(|s| clock(Duration::from_secs(s))), ["0:07", "12:34", "1:02:03"]);
         assert_eq!([100, 3 << 20].map(bytes), ["100 bytes", "3.0 MiB"]);

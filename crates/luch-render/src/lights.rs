@@ -9,7 +9,7 @@ use glam::{Mat3, Vec3};
 use luch_bvh::Aabb;
 use luch_image::Rgb;
 use luch_sampling::Alias;
-use luch_scene::{Light, Scene, Shape};
+use luch_scene::{Light, Scene, Shape, Sides};
 use std::collections::BTreeMap;
 
 /// Marks a primitive that does not shine.
@@ -75,7 +75,11 @@ impl Lights {
         let instance = &scene.instances[index as usize];
         let emission = |slot| {
             let id = instance.material(slot)?;
-            Some((id, scene.materials[id.index()].emission.as_ref()?))
+            let material = &scene.materials[id.index()];
+            let mut emission = material.emission?;
+            // A back that is not there does not shine.
+            emission.two_sided &= material.sides == Sides::Both;
+            Some((id, emission))
         };
         let placement = &instance.placement;
         match &scene.shapes[instance.shape.index()] {
@@ -86,11 +90,11 @@ impl Lights {
                 let normal_map = Mat3::from(placement.matrix3).inverse().transpose();
                 let mut places = vec![DARK; mesh.triangles.len()];
                 for (triangle, place) in places.iter_mut().enumerate() {
-                    let Some((material, emission)) = emission(mesh.slot(triangle)) else { continue };
+                    let Some((material, &emission)) = emission(mesh.slot(triangle)) else { continue };
                     let corners = mesh.corners(triangle).map(|corner| placement.transform_point3(corner));
                     let outward = normal_map * mesh.area_normal(triangle);
                     let emitter =
-                        TriangleEmitter::new(corners, outward, index, triangle as u32, material, emission);
+                        TriangleEmitter::new(corners, outward, index, triangle as u32, material, &emission);
                     if let Some(emitter) = emitter {
                         *place = self.emitters.len() as u32;
                         self.emitters.push(Emitter::Triangle(emitter));
@@ -99,15 +103,15 @@ impl Lights {
                 self.by_instance.insert(index, places);
             }
             Shape::Sphere { radius } => {
-                if let Some((material, emission)) = emission(0) {
+                if let Some((material, &emission)) = emission(0) {
                     self.by_instance.insert(index, vec![self.emitters.len() as u32]);
-                    self.emitters.push(Emitter::Ball(BallEmitter::new(*radius, placement, index, material, emission)));
+                    self.emitters.push(Emitter::Ball(BallEmitter::new(*radius, placement, index, material, &emission)));
                 }
             }
             Shape::Disc { radius } => {
-                if let Some((material, emission)) = emission(0) {
+                if let Some((material, &emission)) = emission(0) {
                     self.by_instance.insert(index, vec![self.emitters.len() as u32]);
-                    self.emitters.push(Emitter::Disc(DiscEmitter::new(*radius, placement, index, material, emission)));
+                    self.emitters.push(Emitter::Disc(DiscEmitter::new(*radius, placement, index, material, &emission)));
                 }
             }
             Shape::Plane => {}

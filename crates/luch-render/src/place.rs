@@ -127,4 +127,12 @@ impl<'a> Place<'a> {
             Opacity::Blend { alpha } => self.scalar(alpha),
         }
     }
+
+    /// Mean radiance of a lamp here: what it emits, times the probability that it is there. Rays to a lamp end before it, so nobody
+    /// else asks.
+    pub(crate) fn lamp_radiance(&self, material: &Material) -> Rgb {
+        let Some(emission) = &material.emission else { return Rgb::BLACK };
+        let there = self.opacity(material).max(0.0).min(1.0);
+        self.color(&emission.radiance).map(|v| v.max(0.0)) * there
+    }
 }

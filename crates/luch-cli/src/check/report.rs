@@ -90,7 +90,8 @@ impl Report {
     /// For people.
     pub(crate) fn lines(&self) -> Vec<String> {
         let Counts { shapes, triangles, instances, triangles_seen, .. } = self.counts;
-        let Counts { materials, textures, images, lights, shining_objects, has_environment, cameras, .. } = self.counts;
+        let Counts { materials, textures, images, lights, shining_objects, has_environment, cameras, .. } =
+            self.counts;
         let surroundings = if has_environment { "yes" } else { "none" };
         let mut lines = vec![
             self.file.clone(),
@@ -98,11 +99,14 @@ impl Report {
             format!("  objects      {instances}, {triangles_seen} triangles with every object's counted"),
             format!("  materials    {materials}"),
             format!("  textures     {textures}, of {images} pictures"),
-            format!("  lights       {lights}, and {shining_objects} shining objects; surroundings: {surroundings}"),
+            format!(
+                "  lights       {lights}, and {shining_objects} shining objects; surroundings: {surroundings}"
+            ),
             format!("  cameras      {cameras}"),
         ];
         for CameraReport { name, position: [x, y, z], field_of_view } in &self.cameras {
-            let lens = field_of_view.map_or("parallel rays".to_owned(), |angle| format!("field of view {angle:.1}°"));
+            let lens = field_of_view
+                .map_or("parallel rays".to_owned(), |angle| format!("field of view {angle:.1}°"));
             lines.push(format!("    \"{name}\" at ({x}, {y}, {z}), {lens}"));
         }
         for TextureReport { width, height, bytes } in &self.textures {

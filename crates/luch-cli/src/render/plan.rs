@@ -81,7 +81,8 @@ impl Plan {
         };
         Ok(Self {
             world: Arc::new(World::build(scene)?),
-            film: resumed.map_or_else(|| Film::new(view.width(), view.height()), |checkpoint| checkpoint.film),
+            film: resumed
+                .map_or_else(|| Film::new(view.width(), view.height()), |checkpoint| checkpoint.film),
             view,
             goal: recipe.goal.to_goal()?,
             endless: recipe.goal.is_endless(),
@@ -104,7 +105,9 @@ impl Places {
         };
         let resumed_from = resumed_from.or_else(|| checkpoint.clone().filter(|_| resumes));
         let usual_output = match (&scene, &resumed_from) {
-            (Some(scene), _) => Path::new(scene.file_stem().unwrap_or(scene.as_os_str())).with_added_extension("png"),
+            (Some(scene), _) => {
+                Path::new(scene.file_stem().unwrap_or(scene.as_os_str())).with_added_extension("png")
+            }
             (None, Some(film)) => film.with_extension("png"),
             (None, None) => return Err(Failure::usage("name the scene to render, or a film to go on with")),
         };
@@ -127,7 +130,9 @@ impl Places {
 fn read_film(path: &Path) -> Result<Checkpoint, Failure> {
     if !path.exists() {
         let path = path.display();
-        return Err(Failure::new(format!("{path}: no such file: there is nothing to resume; begin without --resume")));
+        return Err(Failure::new(format!(
+            "{path}: no such file: there is nothing to resume; begin without --resume"
+        )));
     }
     film_file::read(path)
 }

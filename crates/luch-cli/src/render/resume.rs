@@ -9,7 +9,8 @@ use std::path::Path;
 
 /// The command that continues this one.
 pub(crate) fn command() -> String {
-    let mut words: Vec<String> = std::env::args_os().map(|word| word.to_string_lossy().into_owned()).collect();
+    let mut words: Vec<String> =
+        std::env::args_os().map(|word| word.to_string_lossy().into_owned()).collect();
     if !words.iter().any(|word| word == "--resume" || word.starts_with("--resume=")) {
         words.push("--resume".to_owned());
     }

@@ -61,7 +61,12 @@ struct Pace {
 }
 
 impl Saver {
-    pub(crate) fn new(files: Files, sources: Sources, integrator: Integrator, pen: Pen) -> Result<Self, Failure> {
+    pub(crate) fn new(
+        files: Files,
+        sources: Sources,
+        integrator: Integrator,
+        pen: Pen,
+    ) -> Result<Self, Failure> {
         let display = Display { tone: sources.tone, integrator };
         let pace = Mutex::new(Pace { ended: Instant::now(), cost: Duration::ZERO, has_complained: false });
         Ok(Self { files, sources, display, pen, pace })

@@ -41,7 +41,6 @@ impl BallEmitter {
     }
 
     fn radiance(&self, scene: &Scene, at: Vec3) -> Rgb {
-        let Some(emission) = &scene.materials[self.material.index()].emission else { return Rgb::BLACK };
         let instance = &scene.instances[self.instance as usize];
         let place = Place {
             scene,
@@ -51,7 +50,7 @@ impl BallEmitter {
             weights: [1.0, 0.0, 0.0],
             local: self.to_local.transform_point3(at),
         };
-        place.color(&emission.radiance).map(|v| v.max(0.0))
+        place.lamp_radiance(&scene.materials[self.material.index()])
     }
 
     pub(crate) fn sample(&self, scene: &Scene, from: Vec3, u: [f32; 2]) -> Option<EmitterSample> {

@@ -42,11 +42,10 @@ impl DiscEmitter {
     }
 
     fn radiance(&self, scene: &Scene, local: Vec3) -> Rgb {
-        let Some(emission) = &scene.materials[self.material.index()].emission else { return Rgb::BLACK };
         let instance = &scene.instances[self.instance as usize];
         let shape = &scene.shapes[instance.shape.index()];
         let place = Place { scene, instance, shape, primitive: 0, weights: [1.0, 0.0, 0.0], local };
-        place.color(&emission.radiance).map(|v| v.max(0.0))
+        place.lamp_radiance(&scene.materials[self.material.index()])
     }
 
     pub(crate) fn sample(&self, scene: &Scene, from: Vec3, u: [f32; 2]) -> Option<EmitterSample> {

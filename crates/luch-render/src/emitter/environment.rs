@@ -97,7 +97,8 @@ impl LatLong {
     fn place(&self, direction: Vec3) -> [f32; 2] {
         let local = self.rotation.transpose() * direction;
         let x = 0.5 + libm::atan2f(local.x, -local.z) / (2.0 * PI);
-        let y = libm::acosf(local.y.clamp(-1.0, 1.0)) / PI;
+        // Near the poles the arc cosine has no digits left.
+        let y = libm::atan2f(libm::hypotf(local.x, local.z), local.y) / PI;
         [x.clamp(0.0, 1.0), y.clamp(0.0, 1.0)]
     }
 

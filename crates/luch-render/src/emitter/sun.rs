@@ -19,7 +19,8 @@ pub(crate) struct SunEmitter {
 #[derive(Clone, Copy, Debug)]
 struct SunDisc {
     cone: Cone,
-    cos_radius: f32,
+    /// Squared length of the chord from the middle to the rim: of a small disc the cosine has no digits left.
+    squared_chord: f32,
     radiance: Rgb,
 }
 
@@ -27,9 +28,10 @@ impl SunEmitter {
     /// A sun whose light goes along `direction`; `angular_radius` in radians, 0 for a point.
     pub(crate) fn new(direction: Vec3, irradiance: Rgb, angular_radius: f32) -> Self {
         let sine = libm::sinf(angular_radius);
+        let half_chord = libm::sinf(angular_radius / 2.0);
         let disc = Cone::from_half_angle(angular_radius).map(|cone| SunDisc {
             cone,
-            cos_radius: libm::cosf(angular_radius),
+            squared_chord: 4.0 * half_chord * half_chord,
             // A facing surface gathers π sin² of a uniform disc.
             radiance: irradiance / (PI * sine * sine),
         });
@@ -49,7 +51,8 @@ impl SunEmitter {
     /// Radiance and density of a direction that meets nothing.
     pub(crate) fn toward(&self, direction: Vec3) -> Option<(Rgb, f32)> {
         let disc = self.disc.as_ref()?;
-        (direction.dot(self.frame.normal) >= disc.cos_radius).then(|| (disc.radiance, 1.0 / disc.cone.solid_angle()))
+        let inside = direction.distance_squared(self.frame.normal) <= disc.squared_chord;
+        inside.then(|| (disc.radiance, 1.0 / disc.cone.solid_angle()))
     }
 
     pub(crate) fn power(&self, scene_radius: f32) -> f32 {

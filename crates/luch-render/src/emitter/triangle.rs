@@ -63,7 +63,6 @@ impl TriangleEmitter {
     }
 
     fn radiance(&self, scene: &Scene, weights: Vec3) -> Rgb {
-        let Some(emission) = &scene.materials[self.material.index()].emission else { return Rgb::BLACK };
         let instance: &Instance = &scene.instances[self.instance as usize];
         let place = Place {
             scene,
@@ -73,7 +72,7 @@ impl TriangleEmitter {
             weights: weights.to_array(),
             local: Vec3::ZERO,
         };
-        place.color(&emission.radiance).map(|v| v.max(0.0))
+        place.lamp_radiance(&scene.materials[self.material.index()])
     }
 
     pub(crate) fn sample(&self, scene: &Scene, from: Vec3, u: [f32; 2]) -> Option<EmitterSample> {
