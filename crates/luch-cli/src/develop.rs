@@ -36,7 +36,7 @@ pub(crate) fn run(args: &DevelopArgs) -> Result<Outcome, Failure> {
         terminal::say(&format!(
             "{}: {} samples per pixel",
             output.path.display(),
-            terminal::short(film.mean_samples())
+            terminal::samples(film.mean_samples())
         ));
     }
     Ok(Outcome::Done)

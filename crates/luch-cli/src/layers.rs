@@ -1,6 +1,7 @@
 //! What an EXR holds besides the picture: properties of what is seen, the error, the number of samples.
 
 use crate::failure::Failure;
+use crate::interrupt::Pen;
 use luch::image::codec::Layer;
 use luch::image::{Image, Rgb};
 use luch::render::{Film, Goal, Inspect, JobPlan, RenderJob, View, World};
@@ -10,13 +11,16 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// Samples of a pixel in a layer of a property.
-const SAMPLES: u64 = 16;
+const THOROUGH_SAMPLES: u64 = 16;
+
+/// The same in a sketch.
+const QUICK_SAMPLES: u64 = 1;
+
+/// Time between two looks at a job.
+const LOOK: Duration = Duration::from_millis(2);
 
 /// Longer than any work takes, and still a moment that clocks know.
 pub(crate) const NEVER: Duration = Duration::from_secs(366 * 86400);
-
-/// The same when somebody waits for the end.
-const HASTY_SAMPLES: u64 = 1;
 
 /// One layer that can be asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,6 +61,14 @@ impl LayerChoice {
         Self::Samples,
     ];
 
+    /// The property, if it is one.
+    pub(crate) fn property(self) -> Option<Property> {
+        match self {
+            Self::Property(property) => Some(property),
+            Self::None | Self::StandardError | Self::Samples => None,
+        }
+    }
+
     /// The layer read from the film itself; `None` for properties, which need films of their own.
     pub(crate) fn of_film(self, film: &Film) -> Option<Layer> {
         match self {
@@ -67,33 +79,52 @@ impl LayerChoice {
     }
 }
 
-/// Renders the layers of properties; few samples if somebody waits.
-pub(crate) fn render_properties(
-    world: &Arc<World>,
-    view: &Arc<View>,
-    choices: &[LayerChoice],
-    threads: Option<usize>,
-    hasty: bool,
-) -> Result<Vec<Layer>, Failure> {
-    let properties = choices.iter().filter_map(|choice| match choice {
-        LayerChoice::Property(property) => Some(*property),
-        _ => None,
-    });
-    properties
-        .map(|property| {
-            let plan = JobPlan {
-                world: Arc::clone(world),
-                view: Arc::clone(view),
-                integrator: Box::new(Inspect::new(property, view)),
-                film: Film::new(view.width(), view.height()),
-                goal: Goal::samples(if hasty { HASTY_SAMPLES } else { SAMPLES }),
-                threads,
+/// What layers of properties are rendered from.
+pub(crate) struct PropertyStudio {
+    pub(crate) world: Arc<World>,
+    pub(crate) view: Arc<View>,
+    pub(crate) threads: Option<usize>,
+    pub(crate) properties: Vec<Property>,
+}
+
+/// How much time a layer may take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Care {
+    /// One sample: a sketch to have something at once.
+    Quick,
+    /// Smooth edges.
+    Thorough,
+}
+
+impl PropertyStudio {
+    /// Renders the layers; `None` if the end was asked for meanwhile.
+    pub(crate) fn render(&self, care: Care, pen: &Pen) -> Result<Option<Vec<Layer>>, Failure> {
+        let samples = match care {
+            Care::Quick => QUICK_SAMPLES,
+            Care::Thorough => THOROUGH_SAMPLES,
+        };
+        let mut layers = Vec::new();
+        for property in &self.properties {
+            let job = RenderJob::start(JobPlan {
+                world: Arc::clone(&self.world),
+                view: Arc::clone(&self.view),
+                integrator: Box::new(Inspect::new(*property, &self.view)),
+                film: Film::new(self.view.width(), self.view.height()),
+                goal: Goal::samples(samples),
+                threads: self.threads,
                 snapshot_every: NEVER,
                 on_snapshot: Box::new(|_, _| ()),
-            };
-            Ok(property_layer(property, &RenderJob::start(plan)?.join().film.to_image()))
-        })
-        .collect()
+            })?;
+            while !job.is_finished() {
+                if pen.is_interrupted() {
+                    return Ok(None);
+                }
+                std::thread::sleep(LOOK);
+            }
+            layers.push(property_layer(*property, &job.join().film.to_image()));
+        }
+        Ok(Some(layers))
+    }
 }
 
 /// Vectors have the channels X, Y, Z, depth has Z, colours have R, G, B.

@@ -35,7 +35,7 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Outcome, Failure> {
     }
     whole.provenance.command = command(&args.films, &args.output);
     write_atomically(&args.output, &whole.encode())?;
-    let mean = terminal::short(whole.film.mean_samples());
+    let mean = terminal::samples(whole.film.mean_samples());
     terminal::say(&format!(
         "{}: {} films, {mean} samples per pixel",
         args.output.display(),

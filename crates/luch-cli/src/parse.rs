@@ -61,6 +61,15 @@ pub(crate) fn duration(text: &str) -> Result<Duration, String> {
     }
 }
 
+/// Time between two savings.
+///
+/// Each ends the work under way, so that too short a time would leave no time for work.
+pub(crate) fn interval(text: &str) -> Result<Duration, String> {
+    let time = duration(text)?;
+    let least = Duration::from_secs(1);
+    if time >= least { Ok(time) } else { Err(format!("`{text}` is too short; accepted are 1s and more")) }
+}
+
 /// `1%` or `0.01`
 pub(crate) fn fraction(text: &str) -> Result<f64, String> {
     let wrong = || format!("`{text}` is no error; write a share of the mean brightness, such as 1% or 0.01");
@@ -287,6 +296,7 @@ mod tests {
         for text in ["", "s", "-3s", "0", "3 fortnights", "1e99h", "9999999999999999999999d", "1..2s"] {
             assert!(duration(text).is_err(), "{text}");
         }
+        assert!(interval("0.5s").is_err() && interval("1s").is_ok());
         for text in ["", "%", "0", "-1%", "nan", "inf", "x"] {
             assert!(fraction(text).is_err(), "{text}");
         }

@@ -106,7 +106,7 @@ impl Reporter {
         if let Some(share) = self.share(progress) {
             words.push(format!("{:3.0}% {}", (share * 100.0).floor(), bar(share)));
         }
-        let have = terminal::short(progress.samples_per_pixel);
+        let have = terminal::samples(progress.samples_per_pixel);
         words.push(match progress.samples_wanted {
             Some(wanted) => format!("{have}/{wanted} spp"),
             None => format!("{have} spp"),

@@ -7,7 +7,7 @@ mod saver;
 use crate::args::{ProgressStyle, RenderArgs};
 use crate::failure::{Failure, Outcome};
 use crate::interrupt::Interrupt;
-use crate::layers;
+use crate::layers::NEVER;
 use crate::progress::{self, Reporter};
 use crate::terminal;
 use luch::render::{Ending, JobEnd, JobPlan, RenderJob, from_settings};
@@ -24,7 +24,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
     let plan = Plan::make(args)?;
     let Plan { world, view, film, goal, sources, files, endless } = plan;
     let threads = args.work.threads.map(usize::from);
-    let saver = Arc::new(Saver::new(files, sources, world.scene.settings.integrator, interrupt.pen())?);
+    let saver = Arc::new(Saver::new(files, sources, &world, &view, threads, interrupt.pen()));
     let style = if args.work.quiet { ProgressStyle::None } else { args.work.progress };
     let mut reporter = Reporter::new(style, endless, goal.time);
     reporter.start(&progress::Start {
@@ -45,7 +45,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
         film,
         goal,
         threads,
-        snapshot_every: args.work.every.min(layers::NEVER),
+        snapshot_every: args.work.every.min(NEVER),
         on_snapshot: Box::new(move |film, _| snapshots.snapshot(film)),
     })?;
     while !job.is_finished() {
@@ -57,14 +57,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
     let end = job.join();
     let interrupted = end.ending == Ending::Cancelled;
 
-    // Films first: with them everything else can be made again.
-    let mut troubles = saver.save_films(&end.film);
-    let properties = if saver.wants_layers() && troubles.is_empty() {
-        layers::render_properties(&world, &view, &saver.files.layers, threads, interrupted)?
-    } else {
-        Vec::new()
-    };
-    troubles.extend(saver.save_pictures(&end.film, properties));
+    let troubles = saver.finish(&end.film)?;
     reporter.end(&end, saver.paths());
     if reporter.tells() {
         summarise(&end, &saver, troubles.is_empty());
@@ -89,7 +82,7 @@ fn summarise(end: &JobEnd, saver: &Saver, saved: bool) {
     });
     terminal::complain(&format!(
         "{how}: {} samples per pixel in {} s ({}samples/s){error}",
-        terminal::short(progress.samples_per_pixel),
+        terminal::samples(progress.samples_per_pixel),
         terminal::short(progress.elapsed.as_secs_f64()),
         terminal::metric(progress.rate),
     ));

@@ -45,6 +45,11 @@ pub(crate) fn short(value: f64) -> String {
     }
 }
 
+/// Samples of a pixel: whole numbers as such.
+pub(crate) fn samples(mean: f64) -> String {
+    if mean.fract() == 0.0 { format!("{mean}") } else { short(mean) }
+}
+
 /// `4.2 M`, with a space before whatever unit follows.
 pub(crate) fn metric(value: f64) -> String {
     let scales = [(1e9, "G"), (1e6, "M"), (1e3, "k")];

@@ -90,7 +90,7 @@ impl Lights {
                 let normal_map = Mat3::from(placement.matrix3).inverse().transpose();
                 let mut places = vec![DARK; mesh.triangles.len()];
                 for (triangle, place) in places.iter_mut().enumerate() {
-                    let Some((material, &emission)) = emission(mesh.slot(triangle)) else { continue };
+                    let Some((material, emission)) = emission(mesh.slot(triangle)) else { continue };
                     let corners = mesh.corners(triangle).map(|corner| placement.transform_point3(corner));
                     let outward = normal_map * mesh.area_normal(triangle);
                     let emitter =
@@ -103,13 +103,13 @@ impl Lights {
                 self.by_instance.insert(index, places);
             }
             Shape::Sphere { radius } => {
-                if let Some((material, &emission)) = emission(0) {
+                if let Some((material, emission)) = emission(0) {
                     self.by_instance.insert(index, vec![self.emitters.len() as u32]);
                     self.emitters.push(Emitter::Ball(BallEmitter::new(*radius, placement, index, material, &emission)));
                 }
             }
             Shape::Disc { radius } => {
-                if let Some((material, &emission)) = emission(0) {
+                if let Some((material, emission)) = emission(0) {
                     self.by_instance.insert(index, vec![self.emitters.len() as u32]);
                     self.emitters.push(Emitter::Disc(DiscEmitter::new(*radius, placement, index, material, &emission)));
                 }

@@ -132,7 +132,7 @@ impl<'a> Place<'a> {
     /// else asks.
     pub(crate) fn lamp_radiance(&self, material: &Material) -> Rgb {
         let Some(emission) = &material.emission else { return Rgb::BLACK };
-        let there = self.opacity(material).max(0.0).min(1.0);
+        let there = self.opacity(material).clamp(0.0, 1.0);
         self.color(&emission.radiance).map(|v| v.max(0.0)) * there
     }
 }

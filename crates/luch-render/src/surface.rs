@@ -178,7 +178,8 @@ impl<'a> SurfacePoint<'a> {
         let viewer_outside = self.is_front();
         // Smooth shading is lifted only where light is reflected: refracted rays start on the triangle.
         let lift = if outside == viewer_outside { self.lift[usize::from(!outside)] } else { Vec3::ZERO };
-        self.position + lift + normal * self.error.dot(normal.abs())
+        // The next test's own rounding is along the ray, so the largest extent counts, not that along the normal alone.
+        self.position + lift + normal * self.error.max_element()
     }
 
     /// The ray that leaves along `direction`.

@@ -92,11 +92,8 @@ fn triangles() -> Vec<Case> {
 fn balls() -> Vec<Case> {
     let center = Vec3::new(0.2, 0.5, -0.3);
     // A similarity: three times a sphere of radius 0.2.
-    let placement = Affine3A::from_scale_rotation_translation(
-        Vec3::splat(3.0),
-        glam::Quat::from_rotation_x(1.0),
-        center,
-    );
+    let placement =
+        Affine3A::from_scale_rotation_translation(Vec3::splat(3.0), glam::Quat::from_rotation_x(1.0), center);
     let outside = |name, distance: f32| {
         let axis = Vec3::new(0.48, 0.6, 0.64);
         let sine = 0.6 / distance;
@@ -200,7 +197,8 @@ fn find(case: &Case, direction: Vec3) -> Found {
 /// Replicates of a mean over points of the unit cube.
 fn mean(seed: u64, mut value: impl FnMut([f32; 4]) -> f64) -> Estimate {
     let mut replicate = |pixel: u32| {
-        let points = (0..SAMPLES).map(|i| Sampler::at(Sequence::Sobol, seed, [pixel, 0], i).group(Domain::new(0, 0)));
+        let points =
+            (0..SAMPLES).map(|i| Sampler::at(Sequence::Sobol, seed, [pixel, 0], i).group(Domain::new(0, 0)));
         points.map(&mut value).sum::<f64>() / SAMPLES as f64
     };
     (0..REPLICATES).map(&mut replicate).collect()
@@ -208,7 +206,8 @@ fn mean(seed: u64, mut value: impl FnMut([f32; 4]) -> f64) -> Estimate {
 
 /// Mean over the directions of the case's window of a function, times the window's solid angle.
 fn integral(case: &Case, seed: u64, mut value: impl FnMut(Vec3) -> f64) -> Estimate {
-    let window = case.window.and_then(|(axis, angle)| Some((Frame::from_normal(axis), Cone::from_half_angle(angle)?)));
+    let window =
+        case.window.and_then(|(axis, angle)| Some((Frame::from_normal(axis), Cone::from_half_angle(angle)?)));
     mean(seed, |[u, v, ..]| match &window {
         Some((frame, cone)) => value(frame.to_world(cone.sample([u, v]))) * f64::from(cone.solid_angle()),
         None => value(sphere([u, v])) / f64::from(sphere_pdf()),
@@ -240,7 +239,13 @@ fn drawn_directions_are_of_unit_length_lead_to_the_light_and_have_the_density_th
             // At a rim or between two cells rounding decides: a neighbouring direction will do.
             let frame = Frame::from_normal(sample.incoming);
             let step = 4e-7;
-            let nearby = [Vec3::Z, Vec3::new(step, 0.0, 1.0), Vec3::new(-step, 0.0, 1.0), Vec3::new(0.0, step, 1.0), Vec3::new(0.0, -step, 1.0)];
+            let nearby = [
+                Vec3::Z,
+                Vec3::new(step, 0.0, 1.0),
+                Vec3::new(-step, 0.0, 1.0),
+                Vec3::new(0.0, step, 1.0),
+                Vec3::new(0.0, -step, 1.0),
+            ];
             let agrees = |local: Vec3| {
                 let found = find(&case, frame.to_world(local).normalize());
                 let close = |a: f64, b: f64| (a - b).abs() <= 2e-3 * b;
@@ -277,14 +282,19 @@ fn light_sampling_gives_the_irradiance_of_plain_sampling_and_of_the_formula() {
             })
         };
         for normal in normals {
-            let (light, plain) = (by_light(normal), integral(&case, 7, |direction| {
-                find(&case, direction).radiance * cosine(direction, normal)
-            }));
+            let (light, plain) = (
+                by_light(normal),
+                integral(&case, 7, |direction| find(&case, direction).radiance * cosine(direction, normal)),
+            );
             let off = light.mean().unwrap() - plain.mean().unwrap();
             let error = libm::hypot(light.standard_error().unwrap(), plain.standard_error().unwrap());
             let truth = plain.mean().unwrap();
             assert!(off.abs() <= 4.0 * error + 1e-5 * truth, "{}: {light:?} and {plain:?} differ", case.name);
-            assert!(error <= 0.01 * truth, "{}: the error {error} of {truth} is too large to tell", case.name);
+            assert!(
+                error <= 0.01 * truth,
+                "{}: the error {error} of {truth} is too large to tell",
+                case.name
+            );
         }
         for &(normal, truth) in &case.known {
             within(&by_light(normal), truth, case.name);
@@ -314,7 +324,8 @@ fn histograms_of_drawn_directions_follow_the_density() {
             let (mut counts, mut masses) = ([0.0; CELLS + 1], [0.0; CELLS + 1]);
             let cone = Cone::from_half_angle(reach).filter(|_| case.window.is_some());
             for i in 0..SAMPLES {
-                let [u, v, choice, _] = Sampler::at(Sequence::Sobol, 8, [pixel, 0], i).group(Domain::new(0, 0));
+                let [u, v, choice, _] =
+                    Sampler::at(Sequence::Sobol, 8, [pixel, 0], i).group(Domain::new(0, 0));
                 if let Some(sample) = lights.sample(scene, case.from, choice, [u, v]) {
                     counts[cell(sample.incoming)] += 1.0 / SAMPLES as f64;
                 }
@@ -335,11 +346,13 @@ fn histograms_of_drawn_directions_follow_the_density() {
         assert_eq!(drawn[CELLS].mean(), Some(0.0), "{}: directions outside the window", case.name);
         for i in 0..CELLS {
             let off = drawn[i].mean().unwrap() - expected[i].mean().unwrap();
-            let error = libm::hypot(drawn[i].standard_error().unwrap(), expected[i].standard_error().unwrap());
+            let error =
+                libm::hypot(drawn[i].standard_error().unwrap(), expected[i].standard_error().unwrap());
             // One sample more or less of either kind is the resolution.
             let resolution = largest + 1.0 / (f64::from(REPLICATES) * SAMPLES as f64);
             let level = sidak(0.01, (CELLS * cases.len()) as u32);
-            let limit = luch_sampling::check::student_quantile(1.0 - level / 2.0, f64::from(2 * REPLICATES - 2));
+            let limit =
+                luch_sampling::check::student_quantile(1.0 - level / 2.0, f64::from(2 * REPLICATES - 2));
             assert!(off.abs() <= limit * error + resolution, "{}, cell {i}: {off} ± {error}", case.name);
         }
     }

@@ -108,8 +108,8 @@ pub(crate) struct WorkArgs {
     /// Keep no film: the work cannot be resumed
     #[arg(long)]
     pub(crate) no_checkpoint: bool,
-    /// Time between two savings of pictures and film
-    #[arg(long, value_name = "TIME", default_value = "5s", value_parser = parse::duration)]
+    /// Time between two savings of pictures and film, 1s or more
+    #[arg(long, value_name = "TIME", default_value = "5s", value_parser = parse::interval)]
     pub(crate) every: Duration,
     /// Worker threads [default: one on each processor]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]

@@ -113,8 +113,10 @@ impl Report {
             lines.push(format!("    picture {width}×{height}, {}", terminal::bytes(*bytes)));
         }
         if let Some([[a, b, c], [x, y, z]]) = self.bounds {
-            lines.push(format!("  bounds       ({a}, {b}, {c}) to ({x}, {y}, {z})"));
-            lines.push(format!("  size         {} × {} × {} m", x - a, y - b, z - c));
+            let metres = |values: [f32; 3]| values.map(|v| terminal::short(f64::from(v)));
+            let [least, most] = [[a, b, c], [x, y, z]].map(|corner| metres(corner).join(", "));
+            lines.push(format!("  bounds       ({least}) to ({most})"));
+            lines.push(format!("  size         {} m", metres([x - a, y - b, z - c]).join(" × ")));
         }
         let [width, height] = self.picture;
         let samples = self.samples.map_or(String::new(), |samples| format!(", {samples} samples per pixel"));

@@ -3,17 +3,16 @@
 use crate::display::Display;
 use crate::failure::Failure;
 use crate::interrupt::Pen;
-use crate::layers::LayerChoice;
+use crate::layers::{Care, LayerChoice, PropertyStudio};
 use crate::outputs::{Content, Outputs};
 use crate::provenance;
 use crate::terminal;
 use luch::formats::{SaveError, write_atomically};
 use luch::image::codec::Layer;
 use luch::image::tone::Tone;
-use luch::render::{Checkpoint, Film, Fingerprint, Provenance};
-use luch::scene::Integrator;
+use luch::render::{Checkpoint, Film, Fingerprint, Provenance, View, World};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Saving takes at most one part of so many of the time.
@@ -49,6 +48,7 @@ pub(crate) struct Saver {
     pub(crate) files: Files,
     pub(crate) sources: Sources,
     display: Display,
+    studio: PropertyStudio,
     pen: Pen,
     pace: Mutex<Pace>,
 }
@@ -58,18 +58,26 @@ struct Pace {
     ended: Instant,
     cost: Duration,
     has_complained: bool,
+    /// Layers of properties with few samples, once there are any.
+    sketches: Option<Vec<Layer>>,
 }
 
 impl Saver {
     pub(crate) fn new(
         files: Files,
         sources: Sources,
-        integrator: Integrator,
+        world: &Arc<World>,
+        view: &Arc<View>,
+        threads: Option<usize>,
         pen: Pen,
-    ) -> Result<Self, Failure> {
-        let display = Display { tone: sources.tone, integrator };
-        let pace = Mutex::new(Pace { ended: Instant::now(), cost: Duration::ZERO, has_complained: false });
-        Ok(Self { files, sources, display, pen, pace })
+    ) -> Self {
+        let display = Display { tone: sources.tone, integrator: world.scene.settings.integrator };
+        let wanted = files.layers.iter().filter(|_| files.outputs.have_layers());
+        let properties = wanted.filter_map(|layer| layer.property()).collect();
+        let studio = PropertyStudio { world: Arc::clone(world), view: Arc::clone(view), threads, properties };
+        let pace =
+            Pace { ended: Instant::now(), cost: Duration::ZERO, has_complained: false, sketches: None };
+        Self { files, sources, display, studio, pen, pace: Mutex::new(pace) }
     }
 
     /// Every file that is written.
@@ -82,11 +90,6 @@ impl Saver {
         !self.files.films.is_empty()
     }
 
-    /// Whether layers of properties are to be rendered.
-    pub(crate) fn wants_layers(&self) -> bool {
-        self.files.outputs.have_layers()
-    }
-
     /// The film and its pictures as they are now, unless the last saving was so slow that it is too early.
     pub(crate) fn snapshot(&self, film: &Film) {
         let mut pace = self.pace.lock().unwrap_or_else(PoisonError::into_inner);
@@ -96,7 +99,14 @@ impl Saver {
         }
         let mut troubles = self.save_films(film);
         if !self.pen.is_interrupted() {
-            troubles.extend(self.save_pictures(film, Vec::new()));
+            troubles.extend(self.save_pictures(film, pace.sketches.clone().unwrap_or_default()));
+        }
+        if pace.sketches.is_none() {
+            // After the first picture is there; used until the end, and at an early one.
+            match self.studio.render(Care::Quick, &self.pen) {
+                Ok(sketches) => pace.sketches = sketches,
+                Err(failure) => troubles.push(failure.to_string()),
+            }
         }
         // A full disk may have room again later; rendering goes on.
         if let Some(trouble) = troubles.first()
@@ -109,8 +119,18 @@ impl Saver {
         pace.cost = pace.ended - started;
     }
 
+    /// Everything as it is at the end; what went wrong comes back.
+    pub(crate) fn finish(&self, film: &Film) -> Result<Vec<String>, Failure> {
+        // Films first: with them everything else can be made again.
+        let mut troubles = self.save_films(film);
+        let sketches = self.pace.lock().unwrap_or_else(PoisonError::into_inner).sketches.take();
+        let layers = self.studio.render(Care::Thorough, &self.pen)?.or(sketches).unwrap_or_default();
+        troubles.extend(self.save_pictures(film, layers));
+        Ok(troubles)
+    }
+
     /// Writes the films; what went wrong comes back.
-    pub(crate) fn save_films(&self, film: &Film) -> Vec<String> {
+    fn save_films(&self, film: &Film) -> Vec<String> {
         if self.files.films.is_empty() {
             return Vec::new();
         }
@@ -126,9 +146,9 @@ impl Saver {
     }
 
     /// Writes the pictures; what went wrong comes back.
-    pub(crate) fn save_pictures(&self, film: &Film, properties: Vec<Layer>) -> Vec<String> {
+    fn save_pictures(&self, film: &Film, properties: Vec<Layer>) -> Vec<String> {
         let mut layers = properties;
-        if self.wants_layers() {
+        if self.files.outputs.have_layers() {
             layers.extend(self.files.layers.iter().filter_map(|layer| layer.of_film(film)));
         }
         let image = film.to_image();

@@ -35,9 +35,11 @@ impl BallEmitter {
 
     /// The cone it is seen under from outside.
     fn cone(&self, from: Vec3) -> Option<Cone> {
+        /// Nearer to the surface than this, rounding may have put a point of the inside outside.
+        const OUTSIDE: f32 = 1.0 - 1e-3;
         let squared = from.distance_squared(self.center);
         let sine = self.radius * self.radius / squared;
-        if sine < 1.0 { Cone::from_sin_squared(sine) } else { None }
+        if sine < OUTSIDE { Cone::from_sin_squared(sine) } else { None }
     }
 
     fn radiance(&self, scene: &Scene, at: Vec3) -> Rgb {

@@ -114,7 +114,10 @@ fn formulas_agree_with_the_catalogue_and_with_one_another() {
         [(x0, y0), (x1, y0), (x1, y1), (x0, y1)].map(|(x, y)| DVec3::new(x, h, y))
     };
     near(rectangle_above_corner(1.0, 1.0), 0.138_531_605_994_89);
-    near(polygon(DVec3::ZERO, DVec3::Y, &at_height(0.0, 2.0, 0.0, 3.0, 1.5)), rectangle_above_corner(2.0 / 1.5, 2.0));
+    near(
+        polygon(DVec3::ZERO, DVec3::Y, &at_height(0.0, 2.0, 0.0, 3.0, 1.5)),
+        rectangle_above_corner(2.0 / 1.5, 2.0),
+    );
     near(polygon(DVec3::ZERO, DVec3::Y, &at_height(-0.5, 0.5, -0.5, 0.5, 1.0)), 0.239_456_470_460_773_5);
     near(standing_rectangle(1.0, 1.0, 1.0), 0.055_734_197_002_55);
     // One that reaches below the horizon is cut there.
@@ -123,7 +126,13 @@ fn formulas_agree_with_the_catalogue_and_with_one_another() {
     near(disc(1.0, 1.5, 0.0), 4.0 / 13.0);
     near(disc(1.0, 1.5, 2.0), 0.065_878_429);
     assert!((part_of_disc(1.0, 1.5, 2.0, |_, _| true) - disc(1.0, 1.5, 2.0)).abs() < 1e-6);
-    for (degrees, expected) in [(0.0, 1.0 / 9.0), (60.0, 0.055_555_556), (80.0, 0.020_760_757), (90.0, 0.008_138_302), (100.0, 0.001_466_515)] {
+    for (degrees, expected) in [
+        (0.0, 1.0 / 9.0),
+        (60.0, 0.055_555_556),
+        (80.0, 0.020_760_757),
+        (90.0, 0.008_138_302),
+        (100.0, 0.001_466_515),
+    ] {
         near(sphere(1.0, 3.0, f64::to_radians(degrees)), expected);
     }
     near(beside_wall(1.0, 1.0), 0.853_553_391);

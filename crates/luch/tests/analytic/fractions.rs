@@ -23,9 +23,14 @@ fn factor_of_rectangle(x: [f32; 2], z: [f32; 2], height: f32, point: Vec3) -> f6
 }
 
 /// The part of the lamp's area that is visible from a point: places by `warp`, asked of the geometry.
-fn visible_fraction(world: &World, from: Vec3, sequence: Sequence, place: impl Fn([f32; 2]) -> Vec3) -> Estimate {
+fn visible_fraction(
+    world: &World,
+    from: Vec3,
+    sequence: Sequence,
+    place: impl Fn([f32; 2]) -> Vec3,
+) -> Estimate {
     let replicate = |pixel: u32| {
-        let rays: Vec<Ray> = (0..2048)
+        let rays: Vec<Ray> = (0..4096)
             .map(|i| {
                 let [u, v, ..] = Sampler::at(sequence, 5, [pixel, 0], i).group(Domain::new(0, 0));
                 Ray { t_max: 0.9999, ..Ray::segment(from + Vec3::Y * 1e-4, place([u, v])) }
@@ -123,7 +128,13 @@ fn c_disc_cut_by_a_straight_edge() {
         };
         expect_fraction("edge", &world, Vec3::ZERO, disc_left_of(f64::from(s)), place);
         let factor = part_of_disc(1.0, f64::from(height), 0.0, |x, _| x < f64::from(s));
-        expect(&format!("edge, {s}"), &world, &at(0.0, 0.0), f64::from(ALBEDO) * 4.0 * factor, &[PATH, PLAIN, DIRECT]);
+        expect(
+            &format!("edge, {s}"),
+            &world,
+            &at(0.0, 0.0),
+            f64::from(ALBEDO) * 4.0 * factor,
+            &[PATH, PLAIN, DIRECT],
+        );
     }
 }
 

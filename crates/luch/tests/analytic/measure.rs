@@ -14,12 +14,12 @@ const PILOT: u64 = 32;
 /// Most samples of a pixel.
 const MOST: u64 = 1 << 14;
 /// Relative standard error that runs are planned for, and the one that is demanded.
-const PLANNED: f64 = 0.0035;
+const PLANNED: f64 = 0.004;
 const DEMANDED: f64 = 0.005;
 /// Largest distance from the truth in standard errors.
 const DISTANCE: f64 = 4.0;
 /// Relative rounding of some dozen operations in single precision; matters only where the variance vanishes.
-const ROUNDING: f64 = 3e-6;
+const ROUNDING: f64 = 1e-5;
 
 /// Paths without an end of their own; roulette ends them.
 const ENDLESS: u32 = 1 << 20;
@@ -43,7 +43,13 @@ pub(crate) fn settings(width: u32, height: u32, sequence: Sequence, seed: u64) -
 }
 
 /// Renders a film; its means, row by row.
-pub(crate) fn render(world: &World, camera: &Camera, settings: &Settings, way: Name, samples: u64) -> Vec<PixelEstimate> {
+pub(crate) fn render(
+    world: &World,
+    camera: &Camera,
+    settings: &Settings,
+    way: Name,
+    samples: u64,
+) -> Vec<PixelEstimate> {
     let view = View::new(camera, settings);
     let integrator = from_settings(way, &view);
     let mut film = Film::new(view.width(), view.height());
@@ -54,7 +60,14 @@ pub(crate) fn render(world: &World, camera: &Camera, settings: &Settings, way: N
 }
 
 /// The first channel of a film whose pixels all see the same.
-fn replicates(world: &World, camera: &Camera, way: Name, sequence: Sequence, seed: u64, samples: u64) -> Estimate {
+fn replicates(
+    world: &World,
+    camera: &Camera,
+    way: Name,
+    sequence: Sequence,
+    seed: u64,
+    samples: u64,
+) -> Estimate {
     let settings = settings(COLUMNS, ROWS, sequence, seed);
     render(world, camera, &settings, way, samples).iter().map(|pixel| pixel.mean[0]).collect()
 }
@@ -62,7 +75,8 @@ fn replicates(world: &World, camera: &Camera, way: Name, sequence: Sequence, see
 /// The radiance that `camera` sees, to the planned standard error.
 pub(crate) fn measure(world: &World, camera: &Camera, way: Name, sequence: Sequence) -> Estimate {
     let pilot = replicates(world, camera, way, sequence, 1, PILOT);
-    let relative = pilot.standard_error().unwrap_or(0.0) / pilot.mean().unwrap_or(0.0).abs().max(f64::MIN_POSITIVE);
+    let relative =
+        pilot.standard_error().unwrap_or(0.0) / pilot.mean().unwrap_or(0.0).abs().max(f64::MIN_POSITIVE);
     let wanted = PILOT as f64 * (relative / PLANNED) * (relative / PLANNED);
     let samples = (wanted.min(MOST as f64) as u64).clamp(PILOT, MOST).next_power_of_two();
     replicates(world, camera, way, sequence, 2, samples)
@@ -70,12 +84,17 @@ pub(crate) fn measure(world: &World, camera: &Camera, way: Name, sequence: Seque
 
 /// What is wrong with an estimate of `truth`, if anything.
 pub(crate) fn complaint(estimate: &Estimate, truth: f64) -> Option<String> {
-    let (mean, error) = (estimate.mean().expect("replicates"), estimate.standard_error().expect("replicates"));
+    let (mean, error) =
+        (estimate.mean().expect("replicates"), estimate.standard_error().expect("replicates"));
     let off = (mean - truth).abs();
-    let good = estimate.not_finite() == 0 && off <= DISTANCE * error + ROUNDING * truth && error <= DEMANDED * truth;
+    let good =
+        estimate.not_finite() == 0 && off <= DISTANCE * error + ROUNDING * truth && error <= DEMANDED * truth;
     let percent = 100.0 * error / truth;
     (!good).then(|| {
-        format!("{mean:.6}, expected {truth:.6}: {:.1} standard errors off, one is {percent:.3} % of the truth", off / error)
+        format!(
+            "{mean:.6}, expected {truth:.6}: {:.1} standard errors off, one is {percent:.3} % of the truth",
+            off / error
+        )
     })
 }
 
@@ -103,17 +122,30 @@ pub(crate) fn expect_exactly(what: &str, world: &World, camera: &Camera, truth: 
                 let name = sequence.name();
                 for mean in pixel.mean {
                     let off = (mean - truth).abs();
-                    assert!(off <= ROUNDING * truth, "{what}, {way:?} with {name}: pixel {i} is {mean}, expected {truth}");
+                    assert!(
+                        off <= ROUNDING * truth,
+                        "{what}, {way:?} with {name}: pixel {i} is {mean}, expected {truth}"
+                    );
                 }
                 let variance = pixel.variance.expect("both streams have samples")[0];
-                assert!(variance.sqrt() <= ROUNDING * truth, "{what}, {way:?} with {name}: pixel {i} varies by {variance:e}");
+                assert!(
+                    variance.sqrt() <= ROUNDING * truth,
+                    "{what}, {way:?} with {name}: pixel {i} varies by {variance:e}"
+                );
             }
         }
     }
 }
 
 /// The mean over `seeds` independent films, pixel by pixel.
-pub(crate) fn pixels_over_seeds(world: &World, camera: &Camera, like: &Settings, way: Name, samples: u64, seeds: u64) -> Vec<Estimate> {
+pub(crate) fn pixels_over_seeds(
+    world: &World,
+    camera: &Camera,
+    like: &Settings,
+    way: Name,
+    samples: u64,
+    seeds: u64,
+) -> Vec<Estimate> {
     let mut estimates = vec![Estimate::new(); (like.width * like.height) as usize];
     for seed in 0..seeds {
         let film = render(world, camera, &Settings { seed, ..*like }, way, samples);

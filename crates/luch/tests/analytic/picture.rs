@@ -71,7 +71,8 @@ fn an_edge_covers_its_part_of_every_filter() {
     for filter in [Filter::Box { radius: 0.5 }, Filter::Tent { radius: 1.0 }, Filter::Box { radius: 1.25 }] {
         for sequence in Sequence::ALL {
             let like = luch::scene::Settings { filter, ..settings(4, 4, sequence, 0) };
-            let pixels = pixels_over_seeds(&world, &square_on(), &like, Name::Path { max_depth: 0 }, SAMPLES, SEEDS);
+            let pixels =
+                pixels_over_seeds(&world, &square_on(), &like, Name::Path { max_depth: 0 }, SAMPLES, SEEDS);
             for (i, estimate) in pixels.iter().enumerate() {
                 let truth = coverage(filter, angle, f64::from(offset), center(i));
                 let (mean, error) = (estimate.mean().unwrap(), estimate.standard_error().unwrap());
@@ -80,7 +81,10 @@ fn an_edge_covers_its_part_of_every_filter() {
                 let name = sequence.name();
                 assert!(error <= 0.005, "{filter:?} with {name}, pixel {i}: standard error {error}");
                 let off = (mean - truth).abs();
-                assert!(off <= 4.0 * error + one, "{filter:?} with {name}, pixel {i}: {mean}, expected {truth} ± {error}");
+                assert!(
+                    off <= 4.0 * error + one,
+                    "{filter:?} with {name}, pixel {i}: {mean}, expected {truth} ± {error}"
+                );
             }
         }
     }
@@ -93,7 +97,15 @@ fn coverage_converges_with_the_number_of_samples() {
     let filter = Filter::Box { radius: 0.5 };
     for sequence in Sequence::ALL {
         let squared_error = |samples: u64| -> f64 {
-            let film = |seed| render(&world, &square_on(), &settings(4, 4, sequence, seed), Name::Path { max_depth: 0 }, samples);
+            let film = |seed| {
+                render(
+                    &world,
+                    &square_on(),
+                    &settings(4, 4, sequence, seed),
+                    Name::Path { max_depth: 0 },
+                    samples,
+                )
+            };
             let off = |seed| -> f64 {
                 let one = |(i, pixel): (usize, &luch::render::PixelEstimate)| {
                     let off = pixel.mean[0] - coverage(filter, angle, f64::from(offset), center(i));
@@ -145,7 +157,8 @@ fn the_glossy_disc_sees_the_lamp_with_the_part_of_its_area_that_points_there() {
     // A normal of slope p turns the view from straight above by 2 atan p.
     for slope in [0.15_f32, 0.25] {
         let mut scene = Scene::default();
-        let glossy = Material::new(Surface::Glossy { color: Rgb::gray(color).into(), glossiness: glossiness.into() });
+        let glossy =
+            Material::new(Surface::Glossy { color: Rgb::gray(color).into(), glossiness: glossiness.into() });
         put(&mut scene, Shape::Plane, glossy, Affine3A::IDENTITY);
         let radius = libm::tanf(2.0 * libm::atanf(slope));
         put(&mut scene, Shape::Disc { radius }, lamp(3.0), facing_down(Vec3::Y));

@@ -20,7 +20,12 @@ fn scene(things: Vec<(TriangleMesh, Material, Affine3A)>) -> World {
     let mut scene = Scene::default();
     floor(&mut scene, 0.5);
     surround(&mut scene, 0.2);
-    put(&mut scene, Shape::Sphere { radius: 0.6 }, lamp(9.0), Affine3A::from_translation(Vec3::new(1.0, 3.0, 2.0)));
+    put(
+        &mut scene,
+        Shape::Sphere { radius: 0.6 },
+        lamp(9.0),
+        Affine3A::from_translation(Vec3::new(1.0, 3.0, 2.0)),
+    );
     for (mesh, material, placement) in things {
         put(&mut scene, Shape::Mesh(mesh), material, placement);
     }
@@ -39,7 +44,7 @@ fn expect_alike(what: &str, one: &World, other: &World) {
     const SEEDS: u64 = 24;
     let camera = Camera::looking_at(Vec3::new(0.5, 2.5, 4.0), Vec3::new(0.2, 0.9, -0.3), Vec3::Y, 0.6);
     let film = |world: &World, sequence: Sequence, way: Name| {
-        pixels_over_seeds(world, &camera, &settings(6, 6, sequence, 0), way, 32, SEEDS)
+        pixels_over_seeds(world, &camera, &settings(6, 6, sequence, 0), way, 48, SEEDS)
     };
     let way = Name::Path { max_depth: 4 };
     // Different sequences, so that the two are independent.
@@ -49,7 +54,11 @@ fn expect_alike(what: &str, one: &World, other: &World) {
         let off = a.mean().unwrap() - b.mean().unwrap();
         let square = |e: &luch::sampling::Estimate| e.standard_error().unwrap() * e.standard_error().unwrap();
         let squared = square(a) + square(b);
-        assert!(off.abs() <= 4.0 * squared.sqrt() + 1e-5, "{what}: pixel {i} differs by {off} ± {}", squared.sqrt());
+        assert!(
+            off.abs() <= 4.0 * squared.sqrt() + 1e-5,
+            "{what}: pixel {i} differs by {off} ± {}",
+            squared.sqrt()
+        );
         total += off;
         variance += squared;
         light += a.mean().unwrap();
@@ -93,7 +102,8 @@ fn many_instances_of_one_mesh_look_like_one_mesh_of_many() {
     let mesh = generate::cuboid(Vec3::splat(0.5), [1, 1, 1]);
     let places: Vec<Affine3A> = (0..5)
         .map(|i| {
-            let turned = Mat3::from_rotation_y(i as f32) * Mat3::from_diagonal(Vec3::new(1.0, 0.5 + 0.2 * i as f32, 1.0));
+            let turned = Mat3::from_rotation_y(i as f32)
+                * Mat3::from_diagonal(Vec3::new(1.0, 0.5 + 0.2 * i as f32, 1.0));
             Affine3A::from_mat3_translation(turned, Vec3::new(0.6 * i as f32 - 1.0, 0.6, -0.3 * i as f32))
         })
         .collect();
@@ -101,7 +111,12 @@ fn many_instances_of_one_mesh_look_like_one_mesh_of_many() {
         let mut scene = Scene::default();
         floor(&mut scene, 0.5);
         surround(&mut scene, 0.2);
-        put(&mut scene, Shape::Sphere { radius: 0.6 }, lamp(9.0), Affine3A::from_translation(Vec3::new(1.0, 3.0, 2.0)));
+        put(
+            &mut scene,
+            Shape::Sphere { radius: 0.6 },
+            lamp(9.0),
+            Affine3A::from_translation(Vec3::new(1.0, 3.0, 2.0)),
+        );
         let (shape, material) = (scene.add_shape(Shape::Mesh(mesh.clone())), scene.add_material(gray(0.7)));
         for &place in &places {
             scene.add_instance(shape, material, place);

@@ -11,7 +11,8 @@ use luch::prelude::*;
 use luch::render::SurfacePoint;
 use luch::sampling::Sequence;
 use luch::scene::{
-    Id, Integrator as Name, Light, NormalMap, Normals, Property, Settings, Texture, TextureFilter, TextureUse, Wrap,
+    Id, Integrator as Name, Light, NormalMap, Normals, Property, Settings, Texture, TextureFilter,
+    TextureUse, Wrap,
 };
 
 fn smoothed(mut mesh: TriangleMesh) -> TriangleMesh {
@@ -51,7 +52,13 @@ fn wild_map(scene: &mut Scene) -> NormalMap {
         (state >> 40) as u8
     };
     let pixels = (0..64).map(|_| [byte(), byte(), 128 + byte() / 2, 255]).collect();
-    scene.images.push(Bitmap { width: 8, height: 8, pixels: Pixels::U8(pixels), encoding: Encoding::Linear, has_alpha: false });
+    scene.images.push(Bitmap {
+        width: 8,
+        height: 8,
+        pixels: Pixels::U8(pixels),
+        encoding: Encoding::Linear,
+        has_alpha: false,
+    });
     let texture = scene.add_texture(Texture::Image {
         image: Id::new(0),
         encoding: Encoding::Linear,
@@ -78,10 +85,19 @@ fn no_light_leaks_into_a_closed_room() {
             put(&mut scene, Shape::Mesh(mesh.clone()), material, Affine3A::IDENTITY);
             surround(&mut scene, 1.0);
             let irradiance = Rgb::gray(100.0);
-            scene.lights.push(Light::Sun { direction: Vec3::new(0.48, -0.64, 0.6), irradiance, angular_radius: 0.01 });
+            scene.lights.push(Light::Sun {
+                direction: Vec3::new(0.48, -0.64, 0.6),
+                irradiance,
+                angular_radius: 0.01,
+            });
             scene.lights.push(Light::Point { position: Vec3::new(1.5, 1.2, 1.1), intensity: irradiance });
             let lamp = super::stage::lamp(100.0);
-            put(&mut scene, Shape::Sphere { radius: 0.5 }, lamp, Affine3A::from_translation(Vec3::new(-1.7, 1.2, 0.9)));
+            put(
+                &mut scene,
+                Shape::Sphere { radius: 0.5 },
+                lamp,
+                Affine3A::from_translation(Vec3::new(-1.7, 1.2, 0.9)),
+            );
             let world = world(scene);
             // Toward a corner, an edge and a face.
             for target in [Vec3::ONE, Vec3::new(-1.0, 1.0, 0.1), Vec3::new(0.2, -1.0, 0.3)] {
@@ -113,13 +129,14 @@ fn wrongly_dark(mesh: TriangleMesh, toward_sun: Vec3) -> f64 {
         let point = SurfacePoint::new(&world.scene, &world.geometry, &ray, hit);
         if point.frame.normal.dot(toward_sun) > 0.01 && point.geometric_normal.dot(toward_sun) > 0.001 {
             lit += 1;
-            dark += u32::from(world.geometry.nearest_hit(&world.scene, &point.ray_toward(toward_sun), 0).is_some());
+            dark += u32::from(
+                world.geometry.nearest_hit(&world.scene, &point.ray_toward(toward_sun), 0).is_some(),
+            );
         }
     }
     assert!(lit > 2000, "only {lit} places were lit");
     f64::from(dark) / f64::from(lit)
 }
-
 
 #[test]
 fn no_triangle_of_a_coarse_convex_body_that_faces_the_sun_is_in_shadow() {

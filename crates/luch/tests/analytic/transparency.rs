@@ -1,15 +1,16 @@
 //! Surfaces that are there in part: alpha, masks, sides, mixtures.
 
+use super::formulas::polygon;
 use super::measure::{DIRECT, PATH, PLAIN, aimed, expect, expect_exactly};
 use super::stage::{black, ceiling, floor, gray, lamp, put, surround, world};
-use super::formulas::polygon;
 use glam::{Affine3A, DVec3, Vec3, Vec4};
 use luch::image::{Bitmap, Encoding, Pixels};
 use luch::mesh::{Attribute, TriangleMesh, generate};
 use luch::prelude::*;
 use luch::scene::preset::{material_ball, parallelogram};
 use luch::scene::{
-    Channel, ColorValue, Emission, Id, Opacity, ScalarValue, Sides, Surface, Texture, TextureFilter, TextureUse, Wrap,
+    Channel, ColorValue, Emission, Id, Opacity, ScalarValue, Sides, Surface, Texture, TextureFilter,
+    TextureUse, Wrap,
 };
 
 const WAYS: [luch::scene::Integrator; 3] = [PATH, PLAIN, DIRECT];
@@ -43,7 +44,12 @@ fn each_half_transparent_sheet_halves_what_is_seen_and_what_arrives() {
         let (mut scene, open) = lit_floor();
         for i in 0..sheets {
             let sheet = Material { opacity: half(), ..black() };
-            put(&mut scene, Shape::Plane, sheet, Affine3A::from_translation(Vec3::Y * (0.4 + 0.2 * i as f32)));
+            put(
+                &mut scene,
+                Shape::Plane,
+                sheet,
+                Affine3A::from_translation(Vec3::Y * (0.4 + 0.2 * i as f32)),
+            );
         }
         let world = world(scene);
         let left = libm::pow(0.5, f64::from(sheets));
@@ -70,7 +76,8 @@ fn a_lamp_that_is_half_there_shines_half() {
         };
         // A sphere that is half there also lets its far side's back through, which does not shine.
         for way in [PATH, DIRECT, PLAIN] {
-            let half = super::measure::measure(&world(scene.clone()), &low(), way, luch::sampling::Sequence::Sobol);
+            let half =
+                super::measure::measure(&world(scene.clone()), &low(), way, luch::sampling::Sequence::Sobol);
             let off = half.mean().unwrap() - there.mean().unwrap() / 2.0;
             let error = half.standard_error().unwrap() + there.standard_error().unwrap() / 2.0;
             assert!(off.abs() <= 4.0 * error, "{way:?}: {half:?} is not half of {there:?}");
@@ -139,7 +146,14 @@ fn a_texture_can_cut_out() {
     let alpha = ScalarValue::textured(TextureUse::new(texture), Channel::Alpha);
     let sheet = Material { opacity: Opacity::Blend { alpha }, ..black() };
     let mesh = generate::plane(glam::Vec2::ONE, [1, 1]);
-    let low_u = mesh.corner_uvs(0, 0).unwrap().iter().zip(mesh.corners(0)).min_by(|a, b| a.0.x.total_cmp(&b.0.x)).unwrap().1;
+    let low_u = mesh
+        .corner_uvs(0, 0)
+        .unwrap()
+        .iter()
+        .zip(mesh.corners(0))
+        .min_by(|a, b| a.0.x.total_cmp(&b.0.x))
+        .unwrap()
+        .1;
     put(&mut scene, Shape::Mesh(mesh), sheet, Affine3A::from_translation(Vec3::Y));
     let world = world(scene);
     let side = low_u.x.signum() * 0.25;
@@ -154,10 +168,9 @@ fn what_has_only_a_front_lets_rays_from_behind_pass() {
     let (scene, open) = lit_floor();
     let sheet = Material { sides: Sides::Front, ..black() };
     // Rays from the floor to the lamp come from below: a sheet that faces up is not there for them, one that faces down is.
-    for (placement, part) in [
-        (Affine3A::from_translation(Vec3::Y * 0.5), 1.0),
-        (super::stage::facing_down(Vec3::Y * 0.5), 0.0),
-    ] {
+    for (placement, part) in
+        [(Affine3A::from_translation(Vec3::Y * 0.5), 1.0), (super::stage::facing_down(Vec3::Y * 0.5), 0.0)]
+    {
         let mut scene = scene.clone();
         put(&mut scene, Shape::Plane, sheet.clone(), placement);
         let world = world(scene);
@@ -208,7 +221,8 @@ fn a_mixture_reflects_the_mean_of_its_parts() {
 fn vertex_colours_multiply() {
     let mut scene = Scene::default();
     let mut mesh = parallelogram(Vec3::new(-1.0, 0.0, -1.0), Vec3::Z * 2.0, Vec3::X * 2.0);
-    mesh.colors = Attribute::per_position(mesh.positions.iter().map(|p| Vec4::splat((p.x + 1.0) / 2.0)).collect());
+    mesh.colors =
+        Attribute::per_position(mesh.positions.iter().map(|p| Vec4::splat((p.x + 1.0) / 2.0)).collect());
     let color = ColorValue { vertex_color: true, ..Rgb::gray(0.8).into() };
     put(&mut scene, Shape::Mesh(mesh), Material::new(Surface::Diffuse { color }), Affine3A::IDENTITY);
     surround(&mut scene, 1.0);

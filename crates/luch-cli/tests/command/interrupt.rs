@@ -1,0 +1,76 @@
+//! Any moment is a good moment to stop.
+
+use crate::workplace::{Said, Workplace, signal};
+use std::time::{Duration, Instant};
+
+/// Enough samples that nothing ends by itself, few enough to be finished afterwards; one thread, so that fast machines are interrupted as well.
+const LONG: &str = "render scene.kdl --spp 256 -o a.png --threads 1 --every 1s";
+
+#[test]
+fn an_interrupted_rendering_resumes_to_the_same_bits() {
+    let place = Workplace::new();
+    for name in ["INT", "TERM"] {
+        let child = place.start(LONG);
+        place.await_file("a.png");
+        signal(&child, name);
+        let said = Said::of(child.wait_with_output().unwrap());
+        assert_eq!(said.code, Some(130), "{}", said.err);
+        assert!(said.err.contains("interrupted") && said.err.contains("--resume"), "{}", said.err);
+        assert!(!place.film("a.luch").holds(&(0..256)), "it was not interrupted at all");
+        assert_eq!(place.files(), ["a.luch", "a.png", "scene.kdl"]);
+        place.done("reproduce a.png");
+        std::fs::remove_file(place.path("a.png")).unwrap();
+    }
+    // Twice interrupted, resumed with another number of threads.
+    let child = place.start(&format!("{LONG} --resume"));
+    place.await_file("a.png");
+    signal(&child, "INT");
+    child.wait_with_output().unwrap();
+    place.done("render scene.kdl --spp 256 -o a.png --threads 3 --resume");
+    place.done("render scene.kdl --spp 256 -o whole.png");
+    assert_eq!(place.film("a.luch"), place.film("whole.luch"));
+}
+
+#[test]
+fn a_killed_rendering_resumes_from_its_last_film() {
+    let place = Workplace::new();
+    let child = place.start(LONG);
+    place.await_file("a.luch");
+    std::thread::sleep(Duration::from_millis(100));
+    signal(&child, "KILL");
+    assert_eq!(Said::of(child.wait_with_output().unwrap()).code, None);
+    let film = place.film("a.luch");
+    assert!(film.mean_samples() >= 1.0 && !film.holds(&(0..256)));
+    place.done(&format!("{LONG} --resume"));
+    place.done("render scene.kdl --spp 256 -o whole.png");
+    assert_eq!(place.film("a.luch"), place.film("whole.luch"));
+}
+
+#[test]
+fn without_a_goal_it_goes_on_until_it_is_told_to_end() {
+    let place = Workplace::empty();
+    place.write("scene.kdl", &crate::workplace::SCENE.replace("samples 4; ", ""));
+    let child = place.start("render scene.kdl --progress json --no-checkpoint -o a.exr");
+    place.await_file("a.exr");
+    let asked = Instant::now();
+    signal(&child, "INT");
+    let said = Said::of(child.wait_with_output().unwrap());
+    assert_eq!(said.code, Some(130));
+    assert!(said.out.lines().last().unwrap().contains(r#""ending":"interrupted""#));
+    assert!(asked.elapsed() < Duration::from_secs(5), "{:?}", asked.elapsed());
+    assert_eq!(place.files(), ["a.exr", "scene.kdl"]);
+}
+
+#[test]
+fn impatience_leaves_no_torn_files() {
+    let place = Workplace::new();
+    let child = place.start("render scene.kdl --size 512x512 --spp 65536 -o a.exr -o a.png --every 1s");
+    place.await_file("a.png");
+    signal(&child, "INT");
+    std::thread::sleep(Duration::from_millis(20));
+    // The work may be over by now.
+    let _ = std::process::Command::new("kill").arg("-INT").arg(child.id().to_string()).output();
+    assert_eq!(Said::of(child.wait_with_output().unwrap()).code, Some(130));
+    assert_eq!(place.files(), ["a.exr", "a.luch", "a.png", "scene.kdl"]);
+    assert!(place.film("a.luch").mean_samples() >= 1.0);
+}

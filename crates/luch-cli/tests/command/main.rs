@@ -1,0 +1,9 @@
+//! The command as people run it: in a folder of its own, judged by what it writes, says and ends with.
+
+mod compare;
+mod errors;
+mod interrupt;
+mod merge;
+mod outputs;
+mod reproduce;
+mod workplace;
