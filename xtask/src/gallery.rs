@@ -23,7 +23,7 @@ pub(crate) fn render(root: &Path) -> Result<(), String> {
             true => root.join("docs/lecture.jpg"),
             false => gallery.join(scene.file_stem().unwrap_or_default()).with_extension("png"),
         };
-        let samples = if front { "512" } else { "256" };
+        let samples = if front { "128" } else { "64" };
         let mut command = Command::new("cargo");
         command.args(["run", "--release", "--quiet", "--bin", "luch", "--", "render"]).arg(&scene);
         command.args(["--no-checkpoint", "--spp", samples, "-o"]).arg(&picture);

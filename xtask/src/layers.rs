@@ -33,7 +33,8 @@ pub(crate) fn check(root: &Path) -> Result<(), String> {
     for entry in entries.flatten() {
         let name = entry.file_name().to_string_lossy().into_owned();
         let manifest = entry.path().join("Cargo.toml");
-        let text = std::fs::read_to_string(&manifest).map_err(|error| format!("{}: {error}", manifest.display()))?;
+        let text =
+            std::fs::read_to_string(&manifest).map_err(|error| format!("{}: {error}", manifest.display()))?;
         let rank = rank(&name).ok_or(format!("crate {name} has no place in the layers"))?;
         for dependency in dependencies(&text) {
             if let Some(below) = self::rank(&dependency)
@@ -65,7 +66,8 @@ fn rank(name: &str) -> Option<usize> {
 /// Names under `[dependencies]` of a manifest; what tests use is free.
 fn dependencies(manifest: &str) -> Vec<String> {
     let lines = manifest.lines().map(str::trim);
-    let section = lines.skip_while(|line| *line != "[dependencies]").skip(1).take_while(|line| !line.starts_with('['));
+    let section =
+        lines.skip_while(|line| *line != "[dependencies]").skip(1).take_while(|line| !line.starts_with('['));
     let name = |line: &str| line.split(['.', '=', ' ']).next().unwrap_or_default().to_owned();
     section.filter(|line| !line.is_empty() && !line.starts_with('#')).map(name).collect()
 }

@@ -3,6 +3,7 @@
 use crate::args::CompareArgs;
 use crate::failure::{Failure, Outcome};
 use crate::film_file;
+use crate::interrupt::Interrupt;
 use crate::outputs;
 use crate::terminal;
 use luch::formats::{Files, save_image};
@@ -14,6 +15,7 @@ use serde_json::json;
 use std::path::Path;
 
 pub(crate) fn run(args: &CompareArgs) -> Result<Outcome, Failure> {
+    let pen = Interrupt::install()?.pen();
     if let Some(path) = &args.output {
         outputs::probe(path)?;
     }
@@ -36,6 +38,7 @@ pub(crate) fn run(args: &CompareArgs) -> Result<Outcome, Failure> {
             differences.pixels().iter().map(|p| p.mean()).filter(|v| v.is_finite()).fold(0.0, f32::max);
         let full = if most > 0.0 { most } else { 1.0 };
         let metadata = Metadata::from([("luch:white", full.to_string())]);
+        let _held = pen.hold();
         save_image(path, &false_difference(&a, &b, full)?, &Tone::default(), &metadata)?;
     }
     Ok(if exceeded.is_empty() { Outcome::Done } else { Outcome::Unmet })

@@ -3,6 +3,7 @@
 use crate::args::MergeArgs;
 use crate::failure::{Failure, Outcome};
 use crate::film_file;
+use crate::interrupt::Interrupt;
 use crate::outputs;
 use crate::terminal;
 use luch::formats::write_atomically;
@@ -16,6 +17,7 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Outcome, Failure> {
             args.output.display()
         )));
     }
+    let pen = Interrupt::install()?.pen();
     outputs::probe(&args.output)?;
     let (first, rest) = args.films.split_first().ok_or_else(|| Failure::usage("name the films to join"))?;
     let mut whole = film_file::read(first)?;
@@ -34,7 +36,10 @@ pub(crate) fn run(args: &MergeArgs) -> Result<Outcome, Failure> {
         terminal::complain(&format!("warning: {told}"));
     }
     whole.provenance.command = command(&args.films, &args.output);
-    write_atomically(&args.output, &whole.encode())?;
+    let bytes = whole.encode();
+    let held = pen.hold();
+    write_atomically(&args.output, &bytes)?;
+    drop(held);
     let mean = terminal::samples(whole.film.mean_samples());
     terminal::say(&format!(
         "{}: {} films, {mean} samples per pixel",

@@ -1,6 +1,7 @@
 //! The last step of every import: what the file is silent about is chosen, and the scene is checked.
 
 use crate::{LoadError, Loaded, Problem, framing_camera, neutral_sky};
+use luch_image::tone::{Curve, Tone};
 use luch_scene::{Environment, NamedCamera, Scene, Shape};
 use std::path::Path;
 
@@ -19,6 +20,8 @@ pub(crate) fn finish(path: &Path, mut loaded: Loaded) -> Result<Loaded, LoadErro
         let image = scene.add_image(neutral_sky());
         let scale = luch_image::Rgb::WHITE;
         scene.environment = Some(Environment::LatLong { image, scale, rotation: glam::Mat3::IDENTITY });
+        // White things under it are nearly white in the picture: the curve keeps their shading.
+        loaded.wishes.tone = Tone { exposure: -0.5, curve: Curve::PbrNeutral };
         loaded.notes.push("no light is given: a neutral sky lights everything".to_owned());
     }
     let mut problems = loaded.scene.problems();

@@ -139,7 +139,11 @@ impl Checkpoint {
         let sums_end = section(bytes, header_end)?;
         let sealed = sums_end + CHECKSUM;
         if bytes.len() != sealed {
-            let reason = if bytes.len() < sealed { "the file ends too early" } else { "more bytes than there should be" };
+            let reason = if bytes.len() < sealed {
+                "the file ends too early"
+            } else {
+                "more bytes than there should be"
+            };
             return Err(damaged(bytes.len().min(sealed), reason));
         }
         if blake3::hash(&bytes[..sums_end]).as_bytes() != &bytes[sums_end..] {
@@ -194,14 +198,19 @@ fn film_of(header: &Header, sums: &[u8], at: usize) -> Result<Film, CheckpointEr
             return Err(damaged(PREFIX, format!("samples {done} of a tile are no set of ranges")));
         }
         if done.count() > MOST_SAMPLES {
-            return Err(damaged(PREFIX, format!("samples {done} of a tile, expected at most {MOST_SAMPLES} of them")));
+            return Err(damaged(
+                PREFIX,
+                format!("samples {done} of a tile, expected at most {MOST_SAMPLES} of them"),
+            ));
         }
         let channels = done.count() * 3 * tile.sums.len() as u64;
         if losses.saturated.checked_add(losses.invalid).is_none_or(|lost| lost > channels) {
             return Err(damaged(PREFIX, format!("a tile lost {losses:?} of {channels} numbers")));
         }
         buffer.resize(tile.sums.len() * size_of::<PixelSums>(), 0);
-        decoder.read_exact(&mut buffer).map_err(|error| damaged(at, format!("the sums cannot be read: {error}")))?;
+        decoder
+            .read_exact(&mut buffer)
+            .map_err(|error| damaged(at, format!("the sums cannot be read: {error}")))?;
         from_little_endian(&buffer, &mut tile.sums);
         tile.done = done.clone();
         tile.losses = *losses;

@@ -98,7 +98,9 @@ mod tests {
 
     #[test]
     fn ninety_six_bits_hold_what_is_promised() {
-        for value in [0, 1, -1, (1 << 94) + 12345, -(1 << 94) - 99, i128::from(i64::MIN), i128::from(u64::MAX)] {
+        for value in
+            [0, 1, -1, (1 << 94) + 12345, -(1 << 94) - 99, i128::from(i64::MIN), i128::from(u64::MAX)]
+        {
             assert_eq!(Fixed96::from_i128(value).to_i128(), value);
         }
         let step = Step::new(-36).unwrap();

@@ -218,14 +218,21 @@ impl Film {
             }
             // Tile by tile, in a fixed order: the same bits however the film came about.
             for sums in &tile.sums {
-                let [a, b] = [0, 1].map(|stream| luminance(sums.stream_mean(stream, counts[stream], self.step)));
+                let [a, b] =
+                    [0, 1].map(|stream| luminance(sums.stream_mean(stream, counts[stream], self.step)));
                 variance += (a - b) * (a - b) / 4.0;
                 mean += (a + b) / 2.0;
                 pixels += 1;
             }
         }
         let (variance, mean) = (variance / pixels as f64, mean / pixels as f64);
-        let relative = if mean > 0.0 { variance.sqrt() / mean } else if variance == 0.0 { 0.0 } else { f64::INFINITY };
+        let relative = if mean > 0.0 {
+            variance.sqrt() / mean
+        } else if variance == 0.0 {
+            0.0
+        } else {
+            f64::INFINITY
+        };
         Some(ErrorEstimate { rmse: variance.sqrt(), relative })
     }
 }
@@ -250,7 +257,8 @@ pub struct Coverage {
 
 impl PixelSums {
     fn stream_mean(&self, stream: usize, count: u64, step: Step) -> [f64; 3] {
-        self.0[stream].map(|sum| if count == 0 { 0.0 } else { sum.to_i128() as f64 * step.unit() / count as f64 })
+        self.0[stream]
+            .map(|sum| if count == 0 { 0.0 } else { sum.to_i128() as f64 * step.unit() / count as f64 })
     }
 
     fn estimate(&self, counts: [u64; 2], step: Step) -> PixelEstimate {

@@ -71,7 +71,8 @@ mod tests {
     fn variance(filter: Filter) -> f64 {
         let sampler = FilterSampler::new(filter);
         let n = 1 << 16;
-        (0..n).map(|i| f64::from(sampler.offset((i as f32 + 0.5) / n as f32))).map(|x| x * x).sum::<f64>() / f64::from(n)
+        (0..n).map(|i| f64::from(sampler.offset((i as f32 + 0.5) / n as f32))).map(|x| x * x).sum::<f64>()
+            / f64::from(n)
     }
 
     #[test]

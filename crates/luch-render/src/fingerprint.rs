@@ -16,7 +16,8 @@ pub struct Fingerprint([u8; 32]);
 impl Fingerprint {
     /// The fingerprint of what `camera` sees of `scene` under the scene's settings.
     pub fn of(scene: &Scene, camera: &Camera) -> Self {
-        let Scene { shapes, materials, textures, images, instances, lights, environment, cameras, settings } = scene;
+        let Scene { shapes, materials, textures, images, instances, lights, environment, cameras, settings } =
+            scene;
         let mut writer = HashWriter(blake3::Hasher::new());
         // Other cameras matter only where faces are culled by where cameras are.
         let cameras = if settings.cull_back_faces { cameras.as_slice() } else { &[] };

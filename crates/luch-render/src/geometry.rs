@@ -33,18 +33,24 @@ impl Geometry {
         let placed: Vec<_> =
             scene.instances.iter().map(|i| placed(scene, i, closed[i.shape.index()])).collect();
         let joined = Joined::choose(scene, &placed);
-        let others: Vec<u32> =
-            (0..scene.instances.len() as u32).filter(|i| joined.instances.binary_search(i).is_err()).collect();
+        let others: Vec<u32> = (0..scene.instances.len() as u32)
+            .filter(|i| joined.instances.binary_search(i).is_err())
+            .collect();
 
         // Geometry 0 is the joined one; the shapes follow, those that nobody refers to any more left empty.
         let mut needed = vec![false; scene.shapes.len()];
         for &other in &others {
             needed[scene.instances[other as usize].shape.index()] = true;
         }
-        let empty = || luch_bvh::Geometry::Triangles(Arc::new(TriangleBvh::build(&[], &[], Quality::Balanced)));
+        let empty =
+            || luch_bvh::Geometry::Triangles(Arc::new(TriangleBvh::build(&[], &[], Quality::Balanced)));
         let mut geometries = vec![joined.geometry(scene)];
         geometries.par_extend(
-            scene.shapes.par_iter().zip(needed).map(|(shape, needed)| if needed { geometry_of(shape) } else { empty() }),
+            scene
+                .shapes
+                .par_iter()
+                .zip(needed)
+                .map(|(shape, needed)| if needed { geometry_of(shape) } else { empty() }),
         );
         let whole = luch_bvh::Instance {
             geometry: 0,
@@ -80,7 +86,8 @@ impl Geometry {
         coherence: Coherence,
         key: impl Fn(usize) -> u64,
     ) {
-        let stops = |ray: usize, hit: &InstanceHit| self.stops(scene, &rays[ray], &self.in_scene(*hit), || key(ray));
+        let stops =
+            |ray: usize, hit: &InstanceHit| self.stops(scene, &rays[ray], &self.in_scene(*hit), || key(ray));
         self.tree.nearest_filtered_batch(rays, hits, coherence, stops);
         for hit in hits.iter_mut().flatten() {
             *hit = self.in_scene(*hit);
@@ -96,7 +103,8 @@ impl Geometry {
         coherence: Coherence,
         key: impl Fn(usize) -> u64,
     ) {
-        let stops = |ray: usize, hit: &InstanceHit| self.stops(scene, &rays[ray], &self.in_scene(*hit), || key(ray));
+        let stops =
+            |ray: usize, hit: &InstanceHit| self.stops(scene, &rays[ray], &self.in_scene(*hit), || key(ray));
         self.tree.any_filtered_batch(rays, occluded, coherence, stops);
     }
 
@@ -177,7 +185,8 @@ fn placed(scene: &Scene, instance: &Instance, closed: bool) -> luch_bvh::Instanc
     let any_front = materials().any(|m| m.sides == Sides::Front);
     let cut_out = materials().any(|m| m.opacity != Opacity::Opaque);
     // Lecture 84: faces seen from behind are skipped where no ray can meet them first anyway.
-    let hidden = closed && !cut_out && !materials().any(|m| transmits(scene, m)) && no_camera_inside(scene, instance);
+    let hidden =
+        closed && !cut_out && !materials().any(|m| transmits(scene, m)) && no_camera_inside(scene, instance);
     luch_bvh::Instance {
         geometry: instance.shape.index() as u32 + 1,
         placement: instance.placement,

@@ -224,7 +224,15 @@ impl Worker {
                 let Self { pool, tracker, plan, .. } = &mut self;
                 let pass = pool.install(|| {
                     let film = &mut plan.film;
-                    render_pass(&plan.world, &plan.view, &*plan.integrator, film, range.clone(), &stop, &tracker.samples)
+                    render_pass(
+                        &plan.world,
+                        &plan.view,
+                        &*plan.integrator,
+                        film,
+                        range.clone(),
+                        &stop,
+                        &tracker.samples,
+                    )
                 });
                 let complete = pass.is_ok();
                 if next_snapshot.is_some_and(|moment| Instant::now() >= moment) || (complete && first) {

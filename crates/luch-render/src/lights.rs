@@ -1,8 +1,8 @@
 //! Every emitter of a world, and how one is picked: by power.
 
 use crate::emitter::{
-    BallEmitter, DiscEmitter, Emitter, EmitterSample, EnvironmentEmitter, PointEmitter, SpotEmitter, SunEmitter,
-    TriangleEmitter,
+    BallEmitter, DiscEmitter, Emitter, EmitterSample, EnvironmentEmitter, PointEmitter, SpotEmitter,
+    SunEmitter, TriangleEmitter,
 };
 use crate::surface::SurfacePoint;
 use glam::{Mat3, Vec3};
@@ -105,13 +105,17 @@ impl Lights {
             Shape::Sphere { radius } => {
                 if let Some((material, emission)) = emission(0) {
                     self.by_instance.insert(index, vec![self.emitters.len() as u32]);
-                    self.emitters.push(Emitter::Ball(BallEmitter::new(*radius, placement, index, material, &emission)));
+                    self.emitters.push(Emitter::Ball(BallEmitter::new(
+                        *radius, placement, index, material, &emission,
+                    )));
                 }
             }
             Shape::Disc { radius } => {
                 if let Some((material, emission)) = emission(0) {
                     self.by_instance.insert(index, vec![self.emitters.len() as u32]);
-                    self.emitters.push(Emitter::Disc(DiscEmitter::new(*radius, placement, index, material, &emission)));
+                    self.emitters.push(Emitter::Disc(DiscEmitter::new(
+                        *radius, placement, index, material, &emission,
+                    )));
                 }
             }
             Shape::Plane => {}

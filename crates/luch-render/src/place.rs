@@ -4,7 +4,9 @@ use crate::texture::look_up;
 use glam::{Vec2, Vec3, Vec4};
 use luch_bvh::InstanceHit;
 use luch_image::Rgb;
-use luch_scene::{Channel, ColorValue, Id, Instance, Material, Opacity, ScalarValue, Scene, Shape, TextureUse};
+use luch_scene::{
+    Channel, ColorValue, Id, Instance, Material, Opacity, ScalarValue, Scene, Shape, TextureUse,
+};
 use std::f32::consts::PI;
 
 /// A place on an instance.
@@ -57,9 +59,9 @@ impl<'a> Place<'a> {
     /// Texture coordinates; zero where the mesh has none.
     pub(crate) fn uv(&self, set: usize) -> Vec2 {
         match self.shape {
-            Shape::Mesh(mesh) => {
-                mesh.corner_uvs(self.primitive, set).map_or(Vec2::ZERO, |corners| blend(corners, self.weights))
-            }
+            Shape::Mesh(mesh) => mesh
+                .corner_uvs(self.primitive, set)
+                .map_or(Vec2::ZERO, |corners| blend(corners, self.weights)),
             Shape::Sphere { radius } => {
                 let p = self.local / *radius;
                 // u runs eastward from −Z, v from pole to pole.
@@ -68,7 +70,9 @@ impl<'a> Place<'a> {
                     1.0 - libm::acosf(p.y.clamp(-1.0, 1.0)) / PI,
                 )
             }
-            Shape::Disc { radius } => Vec2::new(self.local.x, -self.local.z) / (2.0 * radius) + Vec2::splat(0.5),
+            Shape::Disc { radius } => {
+                Vec2::new(self.local.x, -self.local.z) / (2.0 * radius) + Vec2::splat(0.5)
+            }
             Shape::Plane => Vec2::new(self.local.x, -self.local.z),
         }
     }

@@ -39,7 +39,8 @@ impl Stop {
 
     /// Whether it is time to stop.
     pub fn is_due(&self) -> bool {
-        self.requested.load(Ordering::Relaxed) || self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
+        self.requested.load(Ordering::Relaxed)
+            || self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
     }
 
     /// Passes on unless it is time to stop.

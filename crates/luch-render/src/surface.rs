@@ -26,8 +26,8 @@ pub struct SurfacePoint<'a> {
     pub outgoing: Vec3,
     /// What the surface is made of.
     pub material: Id<Material>,
-    /// Bound of the position's rounding error along each axis.
-    error: Vec3,
+    /// Bound of the position's rounding error along any axis.
+    error: f32,
     /// How far smooth shading lifts the point off the triangle, on the outside and on the inside.
     lift: [Vec3; 2],
 }
@@ -52,8 +52,7 @@ impl<'a> SurfacePoint<'a> {
         let error = position_error(&place, ray, &hit);
         let outgoing = -ray.direction.normalize();
         let normal_map = geometry.normal_map(hit.instance);
-        let geometric_normal =
-            (*normal_map * local_normal(&place)).try_normalize().unwrap_or(outgoing);
+        let geometric_normal = (*normal_map * local_normal(&place)).try_normalize().unwrap_or(outgoing);
         let mut point = Self {
             place,
             hit,
@@ -165,21 +164,34 @@ impl<'a> SurfacePoint<'a> {
         }
     }
 
-    /// Whether a direction is on the same side of the shading normal as of the surface. Where it is not, no light may pass:
-    /// it would leak through the surface.
+    /// Whether light may pass along a direction without leaking through the surface: it is on the same side of the shading normal
+    /// as of the surface, or it is reflected by the smooth surface that the point is lifted onto.
     pub fn is_honest(&self, direction: Vec3) -> bool {
         direction.dot(self.geometric_normal) * direction.dot(self.frame.normal) > 0.0
+            || self.is_over_the_edge(direction)
+    }
+
+    /// Whether a direction dips below the triangle but not below the smooth surface, on the viewer's side. From the lifted point
+    /// the mesh itself decides whether something is in the way; without that the triangles show along the shadow's edge.
+    fn is_over_the_edge(&self, direction: Vec3) -> bool {
+        let side = if self.is_front() { 1.0 } else { -1.0 };
+        direction.dot(self.geometric_normal) * side <= 0.0
+            && direction.dot(self.frame.normal) * side > 0.0
+            && self.lift[usize::from(!self.is_front())] != Vec3::ZERO
     }
 
     /// Where a ray along `direction` may start without meeting the surface it leaves.
     fn start_toward(&self, direction: Vec3) -> Vec3 {
-        let outside = direction.dot(self.geometric_normal) > 0.0;
-        let normal = if outside { self.geometric_normal } else { -self.geometric_normal };
         let viewer_outside = self.is_front();
+        let outside = match self.is_over_the_edge(direction) {
+            true => viewer_outside,
+            false => direction.dot(self.geometric_normal) > 0.0,
+        };
+        let normal = if outside { self.geometric_normal } else { -self.geometric_normal };
         // Smooth shading is lifted only where light is reflected: refracted rays start on the triangle.
         let lift = if outside == viewer_outside { self.lift[usize::from(!outside)] } else { Vec3::ZERO };
         // The next test's own rounding is along the ray, so the largest extent counts, not that along the normal alone.
-        self.position + lift + normal * self.error.max_element()
+        self.position + lift + normal * self.error
     }
 
     /// The ray that leaves along `direction`.
@@ -196,9 +208,9 @@ impl<'a> SurfacePoint<'a> {
     }
 }
 
-/// How far the computed position may be from the surface, along each axis: roundings of the place in the shape, of the placement,
+/// How far the computed position may be from the surface, along any axis: roundings of the place in the shape, of the placement,
 /// and of the way back to the shape's coordinates when the next ray is tested.
-fn position_error(place: &Place, ray: &Ray, hit: &InstanceHit) -> Vec3 {
+fn position_error(place: &Place, ray: &Ray, hit: &InstanceHit) -> f32 {
     /// Roundings that the analysis of Pharr, Jakob and Humphreys (section 6.8) counts for the chain, doubled.
     const ROUNDINGS: f32 = 32.0;
     let m = &place.instance.placement.matrix3;
@@ -216,7 +228,6 @@ fn position_error(place: &Place, ray: &Ray, hit: &InstanceHit) -> Vec3 {
     let x = Vec3::from(m.x_axis).abs() * size.x;
     let y = Vec3::from(m.y_axis).abs() * size.y;
     let z = Vec3::from(m.z_axis).abs() * size.z;
-    let error = (x + y + z + Vec3::from(place.instance.placement.translation).abs() + far) * (ROUNDINGS * EPSILON);
-    // A plane through the origin has no rounding across it, but a ray must not start in it either.
-    error + Vec3::splat(error.max_element() / 256.0)
+    let translation = Vec3::from(place.instance.placement.translation).abs();
+    (x + y + z + translation + far).max_element() * (ROUNDINGS * EPSILON)
 }

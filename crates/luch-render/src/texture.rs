@@ -97,8 +97,13 @@ mod tests {
     fn uv_origin_is_the_lower_left_corner_and_linear_ramps_are_reproduced() {
         // Two by two: the value is 10·column + row from the bottom.
         let pixels = [1.0, 11.0, 0.0, 10.0].map(|v| [v, 0.0, 0.0, 1.0]).to_vec();
-        let image =
-            Bitmap { width: 2, height: 2, pixels: Pixels::F32(pixels), encoding: Encoding::Linear, has_alpha: false };
+        let image = Bitmap {
+            width: 2,
+            height: 2,
+            pixels: Pixels::F32(pixels),
+            encoding: Encoding::Linear,
+            has_alpha: false,
+        };
         let wrap = [Wrap::Clamp; 2];
         let at = |u, v| nearest(&image, Encoding::Linear, wrap, Vec2::new(u, v))[0];
         assert_eq!([at(0.1, 0.1), at(0.9, 0.1), at(0.1, 0.9), at(0.9, 0.9)], [0.0, 10.0, 1.0, 11.0]);

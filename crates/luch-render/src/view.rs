@@ -79,7 +79,8 @@ impl View {
         let scale = 2.0 * self.half_height / self.height as f32;
         let x = (place.x - self.width as f32 / 2.0) * scale;
         let y = (self.height as f32 / 2.0 - place.y) * scale;
-        let lens = if self.camera.lens_radius > 0.0 { disc(lens) * self.camera.lens_radius } else { Vec2::ZERO };
+        let lens =
+            if self.camera.lens_radius > 0.0 { disc(lens) * self.camera.lens_radius } else { Vec2::ZERO };
         let distance = self.camera.focus_distance;
         // In the camera's own axes: from the lens to the point that is sharp.
         let (start, sharp) = match self.camera.projection {

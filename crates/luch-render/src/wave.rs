@@ -162,4 +162,3 @@ impl Wave {
         carried.clear();
     }
 }
-

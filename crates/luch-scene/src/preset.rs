@@ -16,9 +16,7 @@ pub fn parallelogram(corner: Vec3, first: Vec3, second: Vec3) -> TriangleMesh {
 /// The box of six parallelograms that stands on a base: `corner` below, `first` and `second` along the floor, `up` upward.
 fn block(corner: Vec3, first: Vec3, second: Vec3, up: Vec3) -> TriangleMesh {
     let p = |a: f32, b: f32, c: f32| corner + first * a + second * b + up * c;
-    let positions = (0..8)
-        .map(|i| p((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2 & 1) as f32))
-        .collect();
+    let positions = (0..8).map(|i| p((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2 & 1) as f32)).collect();
     // With `first × second` pointing along `up`.
     let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     let triangles = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
@@ -42,8 +40,24 @@ pub fn cornell_box() -> Scene {
         (parallelogram(-x - z, 2.0 * y, 2.0 * z), red),
         (parallelogram(x - z, 2.0 * z, 2.0 * y), green),
         (parallelogram(Vec3::new(-0.25, 1.999, -0.25), 0.5 * x, 0.5 * z), lamp),
-        (block(Vec3::new(-0.72, 0.0, -0.28), Vec3::new(0.57, 0.0, 0.17), Vec3::new(0.17, 0.0, -0.57), 1.2 * y), white),
-        (block(Vec3::new(0.03, 0.0, 0.55), Vec3::new(0.57, 0.0, 0.17), Vec3::new(0.17, 0.0, -0.57), 0.6 * y), white),
+        (
+            block(
+                Vec3::new(-0.72, 0.0, -0.28),
+                Vec3::new(0.57, 0.0, 0.17),
+                Vec3::new(0.17, 0.0, -0.57),
+                1.2 * y,
+            ),
+            white,
+        ),
+        (
+            block(
+                Vec3::new(0.03, 0.0, 0.55),
+                Vec3::new(0.57, 0.0, 0.17),
+                Vec3::new(0.17, 0.0, -0.57),
+                0.6 * y,
+            ),
+            white,
+        ),
     ];
     for (mesh, material) in parts {
         let shape = scene.add_shape(Shape::Mesh(mesh));

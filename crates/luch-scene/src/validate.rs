@@ -4,8 +4,8 @@
 //! its user expects, every number is finite and in its range, every placement can be inverted.
 
 use crate::{
-    Camera, ColorValue, Environment, Filter, Id, Integrator, Light, Material, Opacity, Projection, Reflectance,
-    ScalarValue, Scene, Settings, Shape, Surface, Texture, TextureUse,
+    Camera, ColorValue, Environment, Filter, Id, Integrator, Light, Material, Opacity, Projection,
+    Reflectance, ScalarValue, Scene, Settings, Shape, Surface, Texture, TextureUse,
 };
 use glam::Vec3;
 use luch_image::{Bitmap, Pixels, Rgb};
@@ -80,13 +80,19 @@ impl Problems<'_> {
         self.expect(used.texture.index() < self.scene.textures.len(), || {
             format!("{owner} refers to texture {:?}, which does not exist", used.texture)
         });
-        self.expect(used.transform.is_finite(), || format!("{owner} has a texture transform that is not finite"));
+        self.expect(used.transform.is_finite(), || {
+            format!("{owner} has a texture transform that is not finite")
+        });
     }
 
     fn color(&mut self, value: &ColorValue, most: f32, owner: &str, name: &str) {
         self.expect(is_light(value.factor) && value.factor.max_channel() <= most, || {
             let Rgb { r, g, b } = value.factor;
-            let range = if most.is_finite() { format!("between 0 and {most}") } else { "finite and not negative".into() };
+            let range = if most.is_finite() {
+                format!("between 0 and {most}")
+            } else {
+                "finite and not negative".into()
+            };
             format!("{owner}: {name} is ({r}, {g}, {b}), expected {range}")
         });
         if let Some(used) = value.texture {
@@ -221,7 +227,11 @@ impl Problems<'_> {
         if attribute.triangles.is_empty() {
             let good = attribute.values.is_empty() || attribute.values.len() == mesh.positions.len();
             self.expect(good, || {
-                format!("{owner} has {} {name} for {} positions", attribute.values.len(), mesh.positions.len())
+                format!(
+                    "{owner} has {} {name} for {} positions",
+                    attribute.values.len(),
+                    mesh.positions.len()
+                )
             });
         } else {
             let good = attribute.triangles.len() == mesh.triangles.len()
@@ -243,9 +253,10 @@ impl Problems<'_> {
                 });
             }
             let determinant = instance.placement.matrix3.determinant();
-            self.expect(instance.placement.is_finite() && determinant != 0.0 && determinant.is_finite(), || {
-                format!("{owner} is placed by a matrix that cannot be inverted")
-            });
+            self.expect(
+                instance.placement.is_finite() && determinant != 0.0 && determinant.is_finite(),
+                || format!("{owner} is placed by a matrix that cannot be inverted"),
+            );
             self.emitting_shape(i);
         }
     }
@@ -253,7 +264,8 @@ impl Problems<'_> {
     /// Lamps must be forms that light can be drawn from.
     fn emitting_shape(&mut self, place: usize) {
         let instance = &self.scene.instances[place];
-        let emits = |id: &Id<Material>| self.scene.materials.get(id.index()).is_some_and(|m| m.emission.is_some());
+        let emits =
+            |id: &Id<Material>| self.scene.materials.get(id.index()).is_some_and(|m| m.emission.is_some());
         if !instance.materials.iter().any(emits) {
             return;
         }
@@ -280,8 +292,9 @@ impl Problems<'_> {
             let (place, direction, strength, angles) = match *light {
                 Light::Point { position, intensity } => (position, Vec3::Y, intensity, true),
                 Light::Spot { position, direction, intensity, inner_angle, outer_angle } => {
-                    let angles =
-                        0.0 <= inner_angle && inner_angle <= outer_angle && outer_angle <= std::f32::consts::PI;
+                    let angles = 0.0 <= inner_angle
+                        && inner_angle <= outer_angle
+                        && outer_angle <= std::f32::consts::PI;
                     (position, direction, intensity, angles)
                 }
                 Light::Sun { direction, irradiance, angular_radius } => {
@@ -290,14 +303,20 @@ impl Problems<'_> {
                 }
             };
             self.expect(place.is_finite(), || format!("light {i} is at {place}"));
-            self.expect(direction.is_normalized(), || format!("light {i} has direction {direction}, expected length 1"));
-            self.expect(is_light(strength), || format!("light {i} has a strength that is negative or not finite"));
+            self.expect(direction.is_normalized(), || {
+                format!("light {i} has direction {direction}, expected length 1")
+            });
+            self.expect(is_light(strength), || {
+                format!("light {i} has a strength that is negative or not finite")
+            });
             self.expect(angles, || format!("light {i} has angles out of range"));
         }
         match self.scene.environment {
             None => {}
             Some(Environment::Constant { radiance }) => {
-                self.expect(is_light(radiance), || "the environment's radiance is negative or not finite".into());
+                self.expect(is_light(radiance), || {
+                    "the environment's radiance is negative or not finite".into()
+                });
             }
             Some(Environment::LatLong { image, scale, rotation }) => {
                 self.image(image, "the environment");
@@ -350,7 +369,9 @@ impl Problems<'_> {
                 radius
             }
         };
-        self.expect(radius > 0.0 && radius <= 64.0, || format!("filter radius is {radius}, expected more than 0, at most 64"));
+        self.expect(radius > 0.0 && radius <= 64.0, || {
+            format!("filter radius is {radius}, expected more than 0, at most 64")
+        });
         if let Integrator::Occlusion { distance } = settings.integrator {
             self.expect(distance > 0.0, || format!("occlusion distance is {distance}, expected more than 0"));
         }

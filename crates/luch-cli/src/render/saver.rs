@@ -101,6 +101,7 @@ impl Saver {
         if !self.pen.is_interrupted() {
             troubles.extend(self.save_pictures(film, pace.sketches.clone().unwrap_or_default()));
         }
+        pace.cost = started.elapsed();
         if pace.sketches.is_none() {
             // After the first picture is there; used until the end, and at an early one.
             match self.studio.render(Care::Quick, &self.pen) {
@@ -116,7 +117,6 @@ impl Saver {
             pace.has_complained = true;
         }
         pace.ended = Instant::now();
-        pace.cost = pace.ended - started;
     }
 
     /// Everything as it is at the end; what went wrong comes back.
@@ -155,7 +155,12 @@ impl Saver {
         let metadata = provenance::metadata(&self.sources.provenance, &self.sources.fingerprint, film);
         let content = Content { image: &image, layers, display: self.display, metadata: &metadata };
         let outputs = &self.files.outputs;
-        let written = outputs.pictures().map(|output| outputs.write(output, &content, &self.pen));
-        written.filter_map(Result::err).map(|error| error.to_string()).collect()
+        // Each on a thread of its own: somebody may be waiting.
+        let written: Vec<Result<(), SaveError>> = std::thread::scope(|scope| {
+            let write = |output| scope.spawn(|| outputs.write(output, &content, &self.pen));
+            let threads: Vec<_> = outputs.pictures().map(write).collect();
+            threads.into_iter().map(|thread| thread.join().expect("encoders do not panic")).collect()
+        });
+        written.into_iter().filter_map(Result::err).map(|error| error.to_string()).collect()
     }
 }

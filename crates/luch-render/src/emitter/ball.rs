@@ -22,7 +22,13 @@ pub(crate) struct BallEmitter {
 
 impl BallEmitter {
     /// The emitter of a sphere of `radius` placed by a similarity.
-    pub(crate) fn new(radius: f32, placement: &Affine3A, instance: u32, material: Id<Material>, emission: &Emission) -> Self {
+    pub(crate) fn new(
+        radius: f32,
+        placement: &Affine3A,
+        instance: u32,
+        material: Id<Material>,
+        emission: &Emission,
+    ) -> Self {
         Self {
             center: placement.translation.into(),
             radius: radius * Vec3::from(placement.matrix3.x_axis).length(),
@@ -65,7 +71,13 @@ impl BallEmitter {
             let half = (self.radius * self.radius - off.length_squared()).max(0.0).sqrt();
             let out = (from + incoming * (along - half) - self.center).try_normalize()?;
             let to = self.center + out * self.radius;
-            return EmitterSample::checked(incoming, Some(to), self.radiance(scene, to), cone_pdf(&cone), false);
+            return EmitterSample::checked(
+                incoming,
+                Some(to),
+                self.radiance(scene, to),
+                cone_pdf(&cone),
+                false,
+            );
         }
         if !self.two_sided {
             return None;
@@ -78,6 +90,8 @@ impl BallEmitter {
 
     pub(crate) fn pdf(&self, from: Vec3, to: Vec3) -> f32 {
         match self.cone(from) {
+            // From outside only the near side is drawn: the far one can still be met, through a sphere that is partly there.
+            Some(_) if (to - self.center).dot(from - self.center) < self.radius * self.radius => 0.0,
             Some(cone) => cone_pdf(&cone),
             None if self.two_sided => {
                 let normal = (to - self.center).normalize_or(Vec3::Y);

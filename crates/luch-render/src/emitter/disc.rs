@@ -23,7 +23,13 @@ pub(crate) struct DiscEmitter {
 
 impl DiscEmitter {
     /// The emitter of a disc of `radius` placed by a similarity.
-    pub(crate) fn new(radius: f32, placement: &Affine3A, instance: u32, material: Id<Material>, emission: &Emission) -> Self {
+    pub(crate) fn new(
+        radius: f32,
+        placement: &Affine3A,
+        instance: u32,
+        material: Id<Material>,
+        emission: &Emission,
+    ) -> Self {
         let y = Vec3::from(placement.matrix3.y_axis);
         let world_radius = radius * y.length();
         Self {
@@ -56,7 +62,13 @@ impl DiscEmitter {
         let local = Vec3::new(place.x, 0.0, place.y);
         let to = self.placement.transform_point3(local);
         let pdf = pdf_of_area(from, to, self.normal, self.area)?;
-        EmitterSample::checked((to - from).try_normalize()?, Some(to), self.radiance(scene, local), pdf, false)
+        EmitterSample::checked(
+            (to - from).try_normalize()?,
+            Some(to),
+            self.radiance(scene, local),
+            pdf,
+            false,
+        )
     }
 
     pub(crate) fn pdf(&self, from: Vec3, to: Vec3) -> f32 {

@@ -45,7 +45,9 @@ impl EnvironmentEmitter {
 
     pub(crate) fn sample(&self, scene: &Scene, u: [f32; 2]) -> Option<EmitterSample> {
         match self {
-            Self::Constant(radiance) => EmitterSample::checked(sphere(u), None, *radiance, sphere_pdf(), false),
+            Self::Constant(radiance) => {
+                EmitterSample::checked(sphere(u), None, *radiance, sphere_pdf(), false)
+            }
             Self::LatLong(map) => {
                 let drawn = map.table.sample(u);
                 let [x, y] = drawn.position;

@@ -37,7 +37,13 @@ pub(crate) struct SpotEmitter {
 
 impl SpotEmitter {
     /// Angles in radians from the axis.
-    pub(crate) fn new(position: Vec3, direction: Vec3, intensity: Rgb, inner_angle: f32, outer_angle: f32) -> Self {
+    pub(crate) fn new(
+        position: Vec3,
+        direction: Vec3,
+        intensity: Rgb,
+        inner_angle: f32,
+        outer_angle: f32,
+    ) -> Self {
         let (cos_inner, cos_outer) = (libm::cosf(inner_angle), libm::cosf(outer_angle));
         Self { position, direction, intensity, cos_inner, cos_outer }
     }

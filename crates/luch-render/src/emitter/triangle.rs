@@ -115,7 +115,10 @@ impl TriangleEmitter {
         let places = [Vec3::X, Vec3::Y, Vec3::Z, Vec3::splat(third)];
         let radiance = places.map(|weights| self.radiance(scene, weights).luminance());
         // A texture may be dark at these and bright between: a floor keeps every triangle reachable.
-        let brightest = scene.materials[self.material.index()].emission.as_ref().map_or(0.0, |e| e.radiance.factor.luminance());
+        let brightest = scene.materials[self.material.index()]
+            .emission
+            .as_ref()
+            .map_or(0.0, |e| e.radiance.factor.luminance());
         let mean = radiance.iter().sum::<f32>() / 4.0;
         let sides = if self.two_sided { 2.0 } else { 1.0 };
         mean.max(0.05 * brightest) * self.area * std::f32::consts::PI * sides

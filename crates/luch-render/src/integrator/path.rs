@@ -87,7 +87,8 @@ impl PathTracer {
                 let weight = if light.delta { 1.0 } else { mis::power(light.pdf, scattered.pdf) };
                 let carried = path.throughput * scattered.value * light.radiance * (weight / light.pdf);
                 if !carried.is_black() {
-                    let ray = light.target.map_or_else(|| point.ray_toward(light.incoming), |to| point.ray_to(to));
+                    let ray =
+                        light.target.map_or_else(|| point.ray_toward(light.incoming), |to| point.ray_to(to));
                     shadows.push(ray, carried);
                 }
             }
@@ -125,11 +126,8 @@ impl Path {
     }
 
     fn follow(&mut self, point: &SurfacePoint, incoming: Vec3, scattered: &BsdfSample) {
-        self.origin = Some(Origin {
-            position: point.position,
-            pdf: scattered.pdf,
-            specular: scattered.specular,
-        });
+        self.origin =
+            Some(Origin { position: point.position, pdf: scattered.pdf, specular: scattered.specular });
         self.ray = point.ray_toward(incoming);
         self.depth += 1;
     }

@@ -26,7 +26,8 @@ impl PlainPathTracer {
         let (mut radiance, mut throughput) = (Rgb::BLACK, Rgb::WHITE);
         let mut ray = sample.ray;
         for depth in 0.. {
-            let Some(hit) = world.geometry.nearest_hit(scene, &ray, opacity_key(sampler, purpose::opacity(depth)))
+            let Some(hit) =
+                world.geometry.nearest_hit(scene, &ray, opacity_key(sampler, purpose::opacity(depth)))
             else {
                 for light in world.lights.beyond(scene, ray.direction) {
                     radiance += throughput * light.radiance;

@@ -97,7 +97,8 @@ impl Tracker {
         let samples = self.before + added;
         let rate = added as f64 / elapsed.as_secs_f64().max(1e-9);
         let per_pixel = samples as f64 / self.pixels as f64;
-        let wanted = Some(self.goal.samples.end.saturating_sub(self.goal.samples.start)).filter(|count| *count < super::ENDLESS);
+        let wanted = Some(self.goal.samples.end.saturating_sub(self.goal.samples.start))
+            .filter(|count| *count < super::ENDLESS);
 
         let by_time = self.goal.time.map(|time| time.saturating_sub(elapsed));
         let after = |missing: f64| Duration::try_from_secs_f64((missing / rate).max(0.0)).ok();
