@@ -19,27 +19,21 @@ pub(crate) struct Command {
     pub(crate) verb: Verb,
 }
 
-/// What to do.
+/// What to do; each verb is explained at its arguments.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
-    /// Render a scene; stop, resume and refine it at any time
     Render(Box<RenderArgs>),
-    /// Render the scene of a picture again and say whether the picture comes out the same
     Reproduce(ReproduceArgs),
-    /// Join films of disjoint sample ranges into one
     Merge(MergeArgs),
-    /// Turn a film into pictures
     Develop(DevelopArgs),
-    /// Say how far two pictures are apart
     Compare(CompareArgs),
-    /// Say what is in a scene file and what is wrong with it
     Check(CheckArgs),
-    /// Write completions for a shell
     Completions(CompletionsArgs),
 }
 
 /// How light becomes numbers on a screen.
 #[derive(Args, Clone, Debug, Default)]
+#[command(next_help_heading = "Display")]
 pub(crate) struct DisplayArgs {
     /// Brighter or darker by this many stops (powers of two) in PNG and JPEG [default: 0]
     #[arg(long, value_name = "STOPS", value_parser = parse::stops, allow_hyphen_values = true)]

@@ -157,7 +157,10 @@ impl Saver {
         let outputs = &self.files.outputs;
         // Each on a thread of its own: somebody may be waiting.
         let written: Vec<Result<(), SaveError>> = std::thread::scope(|scope| {
-            let write = |output| scope.spawn(|| outputs.write(output, &content, &self.pen));
+            let write = |output| {
+                let content = &content;
+                scope.spawn(move || outputs.write(output, content, &self.pen))
+            };
             let threads: Vec<_> = outputs.pictures().map(write).collect();
             threads.into_iter().map(|thread| thread.join().expect("encoders do not panic")).collect()
         });
