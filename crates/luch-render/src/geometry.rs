@@ -125,7 +125,10 @@ impl Geometry {
     /// Whether a surface that is not there everywhere stops the ray: a pure function of ray, hit and key.
     fn stops(&self, scene: &Scene, ray: &Ray, hit: &InstanceHit, key: impl Fn() -> u64) -> bool {
         let instance = &scene.instances[hit.instance as usize];
-        let local = instance.placement.inverse().transform_point3(ray.at(hit.hit.t));
+        let local = match scene.shapes[instance.shape.index()] {
+            Shape::Mesh(_) => Vec3::ZERO,
+            _ => instance.placement.inverse().transform_point3(ray.at(hit.hit.t)),
+        };
         let place = Place::of_hit(scene, hit, local);
         let material = &scene.materials[place.material_id().index()];
         if material.sides == Sides::Front {

@@ -21,15 +21,17 @@ impl Joined {
             users[instance.shape.index()] += 1;
         }
         let (mut instances, mut first_triangles) = (Vec::new(), Vec::new());
-        let mut count = 0u32;
+        let (mut count, mut positions) = (0u32, 0u32);
         for (i, (instance, placed)) in scene.instances.iter().zip(placed).enumerate() {
             let Shape::Mesh(mesh) = &scene.shapes[instance.shape.index()] else { continue };
             let alone = users[instance.shape.index()] == 1 && !placed.filtered && !placed.cull_back;
-            let end = u32::try_from(mesh.triangles.len()).ok().and_then(|more| count.checked_add(more));
-            if let (true, Some(end)) = (alone, end) {
+            let after =
+                |so_far: u32, more: usize| u32::try_from(more).ok().and_then(|more| so_far.checked_add(more));
+            let ends = after(count, mesh.triangles.len()).zip(after(positions, mesh.positions.len()));
+            if let (true, Some((end, last))) = (alone, ends) {
                 instances.push(i as u32);
                 first_triangles.push(count);
-                count = end;
+                (count, positions) = (end, last);
             }
         }
         Self { instances, first_triangles }
