@@ -123,13 +123,13 @@ pub(crate) struct CompareArgs {
     #[arg(long)]
     pub(crate) json: bool,
     /// Fail if the mean squared error is larger
-    #[arg(long, value_name = "X")]
+    #[arg(long, value_name = "X", value_parser = parse::limit, allow_hyphen_values = true)]
     pub(crate) max_mse: Option<f64>,
     /// Fail if the mean relative squared error is larger
-    #[arg(long, value_name = "X")]
+    #[arg(long, value_name = "X", value_parser = parse::limit, allow_hyphen_values = true)]
     pub(crate) max_rel_mse: Option<f64>,
     /// Fail if any channel of any pixel differs by more
-    #[arg(long, value_name = "X")]
+    #[arg(long, value_name = "X", value_parser = parse::limit, allow_hyphen_values = true)]
     pub(crate) max_difference: Option<f64>,
 }
 

@@ -4,7 +4,8 @@ use crate::args::CompareArgs;
 use crate::failure::{Failure, Outcome};
 use crate::film_file;
 use crate::interrupt::Interrupt;
-use crate::outputs;
+use crate::outputs::{self, Outputs};
+use crate::same_file::refuse_replacing;
 use crate::terminal;
 use luch::formats::{Files, save_image};
 use luch::image::codec::{self, Metadata};
@@ -17,6 +18,12 @@ use std::path::Path;
 pub(crate) fn run(args: &CompareArgs) -> Result<Outcome, Failure> {
     let pen = Interrupt::install()?.pen();
     if let Some(path) = &args.output {
+        // A difference is shown in 8 bits a channel.
+        if Outputs::new(std::slice::from_ref(path), 8)?.films().next().is_some() {
+            let path = path.display();
+            return Err(Failure::usage(format!("{path}: a difference is a picture, not a film")));
+        }
+        refuse_replacing(&[path], &[&args.a, &args.b])?;
         outputs::probe(path)?;
     }
     let (a, b) = (read(&args.a)?, read(&args.b)?);

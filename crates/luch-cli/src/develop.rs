@@ -9,8 +9,10 @@ use crate::layers::LayerChoice;
 use crate::outputs::{self, Content, Outputs};
 use crate::provenance;
 use crate::recipe::Recipe;
+use crate::same_file::refuse_replacing;
 use crate::terminal;
 use luch::render::Checkpoint;
+use std::path::Path;
 
 pub(crate) fn run(args: &DevelopArgs) -> Result<Outcome, Failure> {
     let pen = Interrupt::install()?.pen();
@@ -21,6 +23,8 @@ pub(crate) fn run(args: &DevelopArgs) -> Result<Outcome, Failure> {
             film.display()
         )));
     }
+    let targets: Vec<&Path> = outputs.pictures().map(|output| output.path.as_path()).collect();
+    refuse_replacing(&targets, &[&args.film])?;
     args.output.iter().try_for_each(|path| outputs::probe(path))?;
     let Checkpoint { fingerprint, mut provenance, film } = film_file::read(&args.film)?;
     let mut recipe = Recipe::from_json(&provenance.options)?;

@@ -25,6 +25,7 @@ mod provenance;
 mod recipe;
 mod render;
 mod reproduce;
+mod same_file;
 mod terminal;
 
 use args::{Command, Verb};
@@ -42,7 +43,13 @@ fn main() -> ExitCode {
         Verb::Completions(args) => completions::run(&args),
     };
     match result {
-        Ok(outcome) => outcome.into(),
+        Ok(outcome) => match terminal::trouble() {
+            None => outcome.into(),
+            Some(trouble) => {
+                terminal::complain(&format!("error: standard output cannot be written: {trouble}"));
+                ExitCode::FAILURE
+            }
+        },
         Err(failure) => {
             terminal::complain(&format!("error: {failure}"));
             failure.exit_code()

@@ -4,7 +4,8 @@ use crate::display::Display;
 use crate::failure::Failure;
 use crate::film_file;
 use crate::interrupt::Pen;
-use luch::formats::{SaveError, write_atomically};
+use crate::same_file::{folder_of, place};
+use luch::formats::{SaveError, replaced_file, write_atomically};
 use luch::image::codec::{self, EncodeError, Format, Layer, Layers, Metadata};
 use luch::image::{Image, Rgb};
 use std::path::{Path, PathBuf};
@@ -51,7 +52,7 @@ impl Outputs {
         };
         let mut files: Vec<Output> = Vec::new();
         for path in paths {
-            if files.iter().any(|file| file.path == *path) {
+            if files.iter().any(|file| place(&file.path) == place(path)) {
                 return Err(Failure::usage(format!("{} is to be written twice", path.display())));
             }
             files.push(Output { path: path.clone(), kind: kind_of(path)? });
@@ -123,15 +124,14 @@ fn kind_of(path: &Path) -> Result<Kind, Failure> {
     }
 }
 
-/// Makes sure that a file can be written, before hours of work depend on it: its folder takes files, and no folder has its name.
+/// Makes sure that a file can be written, before hours of work depend on it: its folder takes files, nothing but a
+/// plain file has its name, and a film replaces nothing but a film.
 pub(crate) fn probe(path: &Path) -> Result<(), Failure> {
-    if path.is_dir() {
-        return Err(Failure::new(format!("{}: is a folder, not a file", path.display())));
+    let target = replaced_file(path)?;
+    if film_file::is_film(path) {
+        film_file::refuse_replacing_others(path)?;
     }
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
+    let folder = folder_of(&target);
     if !folder.is_dir() {
         return Err(Failure::new(format!(
             "{}: the folder {} does not exist",

@@ -82,9 +82,12 @@ pub(crate) fn fraction(text: &str) -> Result<f64, String> {
         return Err(wrong());
     }
     if value >= 1.0 {
-        return Err(format!(
-            "`{text}` is an error of all the light or more; if you mean percent, write {number}%"
-        ));
+        let told = format!("`{text}` is an error of all the light or more");
+        // Who typed percent means percent.
+        return Err(match scale < 1.0 {
+            true => format!("{told}; accepted is what is less than 100%"),
+            false => format!("{told}; if you mean percent, write {number}%"),
+        });
     }
     Ok(value)
 }
@@ -137,11 +140,19 @@ pub(crate) fn normals(text: &str) -> Result<Normals, String> {
     }
 }
 
-/// Stops, from −100 to 100.
+/// A largest difference that is accepted.
+pub(crate) fn limit(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(limit) if limit >= 0.0 && limit.is_finite() => Ok(limit),
+        _ => Err(format!("`{text}` is no limit; accepted are finite numbers from 0 on, such as 0.001")),
+    }
+}
+
+/// Stops, from −64 to 64, as in scene files.
 pub(crate) fn stops(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
-        Ok(stops) if stops.abs() <= 100.0 => Ok(stops),
-        _ => Err(format!("`{text}` is no exposure; write stops from -100 to 100, such as -1.5")),
+        Ok(stops) if stops.abs() <= 64.0 => Ok(stops),
+        _ => Err(format!("`{text}` is no exposure; write stops from -64 to 64, such as -1.5")),
     }
 }
 
@@ -301,6 +312,11 @@ mod tests {
             assert!(fraction(text).is_err(), "{text}");
         }
         assert!(fraction("5").unwrap_err().contains("5%"));
+        assert!(!fraction("200%").unwrap_err().contains("if you mean"));
+        for text in ["", "nan", "inf", "-1", "x"] {
+            assert!(limit(text).is_err(), "{text}");
+        }
+        assert!(limit("0").is_ok() && stops("64").is_ok() && stops("65").is_err());
         for text in ["", "5", "5..5", "9..3", "..", "0..99999999999", "-1..4", "a..b"] {
             assert!(samples(text).is_err(), "{text}");
         }

@@ -217,7 +217,10 @@ impl Recipe {
         }
         scene.camera(self.camera.as_deref()).copied().ok_or_else(|| {
             let name = self.camera.as_deref().unwrap_or("");
-            let named = |camera: &luch::scene::NamedCamera| format!("\"{}\"", camera.name);
+            let named = |camera: &luch::scene::NamedCamera| match camera.name.as_str() {
+                "" => "one without a name".to_owned(),
+                name => format!("\"{name}\""),
+            };
             let names: Vec<String> = scene.cameras.iter().map(named).collect();
             Failure::new(format!("there is no camera \"{name}\" in the scene; it has {}", names.join(", ")))
         })

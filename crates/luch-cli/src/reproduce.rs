@@ -16,7 +16,10 @@ use std::sync::Arc;
 
 pub(crate) fn run(args: &ReproduceArgs) -> Result<Outcome, Failure> {
     let claim = Claim::read(&args.file)?;
-    let source = args.scene.clone().map_or_else(|| find_scene(&claim.scene, &args.file), Ok)?;
+    let source = args
+        .scene
+        .clone()
+        .map_or_else(|| find_scene(&claim.scene, &args.file, "say with --scene where it is now"), Ok)?;
     let mut scene = luch::load(&source)?.scene;
     let camera = claim.recipe.apply(&mut scene)?;
     let fingerprint = Fingerprint::of(&scene, &camera).to_hex();
@@ -70,14 +73,14 @@ fn head(digits: &str) -> &str {
     digits.get(..16).unwrap_or(digits)
 }
 
-/// The scene where it was, or else beside the picture.
-fn find_scene(named: &str, picture: &Path) -> Result<PathBuf, Failure> {
+/// The scene where it was, or else beside the picture or film; `advice` is for when it is in neither place.
+pub(crate) fn find_scene(named: &str, picture: &Path, advice: &str) -> Result<PathBuf, Failure> {
     let named = PathBuf::from(named);
     let beside = named.file_name().map(|name| picture.with_file_name(name));
     let places = [Some(named.clone()), beside];
     places.into_iter().flatten().find(|path| path.is_file()).ok_or_else(|| {
         let (named, picture) = (named.display(), picture.display());
-        Failure::new(format!("{picture}: its scene {named} is not there; say with --scene where it is now"))
+        Failure::new(format!("{picture}: its scene {named} is not there; {advice}"))
     })
 }
 

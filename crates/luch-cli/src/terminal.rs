@@ -1,12 +1,25 @@
-//! Saying things. A reader that went away is no reason to stop working, so failures to write are ignored.
+//! Saying things. A reader that went away is no reason to stop working, so failures to write end nothing; results that are lost otherwise, as
+//! on a full disk, are told at the end.
 
-use std::io::Write;
+use std::io::{ErrorKind, Write};
+use std::sync::OnceLock;
+
+/// Why a result was lost, the first time.
+static TROUBLE: OnceLock<String> = OnceLock::new();
 
 /// A line of results, on standard output.
 pub(crate) fn say(line: &str) {
     let mut out = std::io::stdout().lock();
-    // Standard output may be a closed pipe.
-    let _ = writeln!(out, "{line}").and_then(|()| out.flush());
+    if let Err(error) = writeln!(out, "{line}").and_then(|()| out.flush())
+        && error.kind() != ErrorKind::BrokenPipe
+    {
+        TROUBLE.get_or_init(|| error.to_string());
+    }
+}
+
+/// Why a line of results did not reach anybody who wanted it.
+pub(crate) fn trouble() -> Option<&'static str> {
+    TROUBLE.get().map(String::as_str)
 }
 
 /// A line about the work, on standard error.

@@ -4,6 +4,7 @@ use crate::Problem;
 use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 /// Largest file that is read, in bytes.
 const LARGEST_FILE: u64 = 8 << 30;
@@ -12,6 +13,8 @@ const LARGEST_FILE: u64 = 8 << 30;
 #[derive(Debug, Default)]
 pub struct Files {
     memory: Option<BTreeMap<PathBuf, Vec<u8>>>,
+    /// What was read from the disk.
+    taken: Mutex<Vec<PathBuf>>,
 }
 
 impl Files {
@@ -22,7 +25,7 @@ impl Files {
 
     /// Files in memory, by their paths; the disk is never touched.
     pub fn memory(files: impl IntoIterator<Item = (PathBuf, Vec<u8>)>) -> Self {
-        Self { memory: Some(files.into_iter().collect()) }
+        Self { memory: Some(files.into_iter().collect()), ..Self::default() }
     }
 
     /// The bytes of a file.
@@ -53,7 +56,13 @@ impl Files {
         }
         let mut bytes = Vec::with_capacity(about.len() as usize);
         std::fs::File::open(path).map_err(fail)?.take(LARGEST_FILE).read_to_end(&mut bytes).map_err(fail)?;
+        self.taken.lock().unwrap_or_else(PoisonError::into_inner).push(path.to_owned());
         Ok(bytes)
+    }
+
+    /// The files that were read from the disk, so that nobody writes over them.
+    pub fn taken(&self) -> Vec<PathBuf> {
+        self.taken.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// True if there is such a file.

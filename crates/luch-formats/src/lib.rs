@@ -54,7 +54,7 @@ pub use files::Files;
 pub use format::SceneFormat;
 pub use framing::{bounding_sphere, framing_camera};
 pub use sky::neutral_sky;
-pub use write::{SaveError, save_image, save_mesh, write_atomically};
+pub use write::{SaveError, replaced_file, save_image, save_mesh, write_atomically};
 
 use luch_image::tone::Tone;
 use luch_scene::Scene;

@@ -27,6 +27,14 @@ pub enum SaveError {
         /// Extensions that can be written.
         accepted: &'static str,
     },
+    /// What has the name cannot be replaced: a folder, a device, a pipe.
+    #[error("{}: is {what}, not a plain file, and is not replaced; name a plain file or a new one", path.display())]
+    NotPlain {
+        /// What has the name.
+        path: PathBuf,
+        /// What it is.
+        what: &'static str,
+    },
     /// The picture does not fit the format.
     #[error("{}: {source}", path.display())]
     Image {
@@ -39,35 +47,62 @@ pub enum SaveError {
 
 /// Writes a file so that at any moment, even after a loss of power, either the old or the new content is there.
 ///
-/// The bytes go to a temporary file in the same folder, are forced to the disk and take the file's name at once.
+/// The bytes go to a temporary file in the same folder, are forced to the disk and take the file's name at once. A link stays one: the file
+/// it leads to is replaced.
 ///
 /// # Errors
-/// If the folder does not exist or the disk refuses; the old file is then untouched.
+/// If the folder does not exist, the disk refuses or what is there is no plain file; it is then untouched.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), SaveError> {
     let disk = |source| SaveError::Disk { path: path.to_owned(), source };
+    let path = &replaced_file(path)?;
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
-    let mut temporary = tempfile::Builder::new().prefix(".luch-").tempfile_in(folder).map_err(disk)?;
+    let mut temporary = create_temporary(folder, path).map_err(disk)?;
     temporary.write_all(bytes).map_err(disk)?;
-    set_permissions(temporary.as_file(), path).map_err(disk)?;
     temporary.as_file().sync_all().map_err(disk)?;
     temporary.persist(path).map_err(|error| disk(error.error))?;
     sync_folder(folder).map_err(disk)
 }
 
-/// Temporary files are made for their owner alone; the final file keeps its rights, or gets the usual ones.
+/// The file that writing to `path` makes or replaces: `path` itself or, if that is a link, what it leads to.
+///
+/// # Errors
+/// If something else than a plain file is there, a link leads nowhere, or the system does not take the name.
+pub fn replaced_file(path: &Path) -> Result<PathBuf, SaveError> {
+    let disk = |source| SaveError::Disk { path: path.to_owned(), source };
+    let is_link = match std::fs::symlink_metadata(path) {
+        Ok(about) => about.is_symlink(),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(path.to_owned()),
+        Err(error) => return Err(disk(error)),
+    };
+    let about = std::fs::metadata(path).map_err(disk)?;
+    if !about.is_file() {
+        let what = if about.is_dir() { "a folder" } else { "a device or a pipe" };
+        return Err(SaveError::NotPlain { path: path.to_owned(), what });
+    }
+    if is_link { path.canonicalize().map_err(disk) } else { Ok(path.to_owned()) }
+}
+
+/// A temporary file with the rights of the file it will replace, or those of any new file.
 #[cfg(unix)]
-fn set_permissions(file: &std::fs::File, path: &Path) -> std::io::Result<()> {
+fn create_temporary(folder: &Path, path: &Path) -> std::io::Result<tempfile::NamedTempFile> {
     use std::os::unix::fs::PermissionsExt;
-    let mode = std::fs::metadata(path).map_or(0o644, |about| about.permissions().mode() & 0o777);
-    file.set_permissions(std::fs::Permissions::from_mode(mode))
+    let old = std::fs::metadata(path).ok().map(|about| about.permissions().mode() & 0o777);
+    // The system takes away what the user's mask forbids to new files.
+    let rights = std::fs::Permissions::from_mode(old.unwrap_or(0o666));
+    let temporary =
+        tempfile::Builder::new().prefix(".luch-").permissions(rights.clone()).tempfile_in(folder)?;
+    if old.is_some() {
+        temporary.as_file().set_permissions(rights)?;
+    }
+    Ok(temporary)
 }
 
 #[cfg(not(unix))]
-fn set_permissions(_: &std::fs::File, _: &Path) -> std::io::Result<()> {
-    Ok(())
+fn create_temporary(folder: &Path, _: &Path) -> std::io::Result<tempfile::NamedTempFile> {
+    tempfile::Builder::new().prefix(".luch-").tempfile_in(folder)
 }
 
 /// The new name must reach the disk as well.

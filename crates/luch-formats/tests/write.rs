@@ -26,7 +26,7 @@ fn a_failure_leaves_the_old_file() {
     // A folder in the place of the file cannot be replaced.
     let taken = folder.path().join("taken");
     std::fs::create_dir(&taken).unwrap();
-    assert!(matches!(write_atomically(&taken, b"x"), Err(SaveError::Disk { .. })));
+    assert!(matches!(write_atomically(&taken, b"x"), Err(SaveError::NotPlain { .. })));
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "no temporary file stays");
 }
 
@@ -37,7 +37,11 @@ fn others_may_read_what_is_written() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.bin");
     write_atomically(&path, b"x").unwrap();
-    assert_eq!(std::fs::metadata(&path).unwrap().permissions().mode() & 0o777, 0o644);
+    // As the user's mask has it for any new file.
+    let usual = folder.path().join("usual.bin");
+    std::fs::write(&usual, b"x").unwrap();
+    let mode = |path| std::fs::metadata(path).unwrap().permissions().mode() & 0o777;
+    assert_eq!(mode(&path), mode(&usual));
     std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o600)).unwrap();
     write_atomically(&path, b"y").unwrap();
     assert_eq!(std::fs::metadata(&path).unwrap().permissions().mode() & 0o777, 0o600);

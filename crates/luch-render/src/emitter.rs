@@ -95,6 +95,15 @@ impl Emitter {
     }
 }
 
+/// A point of an emitter with this unit normal, moved toward `from` until rounding cannot put it behind the surface: where the ray
+/// that asks whether it is seen may end. `size` is the emitter's extent.
+fn in_front(to: Vec3, normal: Vec3, from: Vec3, size: f32) -> Vec3 {
+    /// Roundings of the point, of the segment to it and of the test.
+    const ROUNDINGS: f32 = 32.0;
+    let side = if (from - to).dot(normal) < 0.0 { -1.0 } else { 1.0 };
+    to + normal * (side * ROUNDINGS * (f32::EPSILON / 2.0) * (to.abs().max_element() + size))
+}
+
 /// Density per solid angle of a point drawn by area: `pdf_area · distance² / |cos|`; `None` on edge or in place.
 fn pdf_of_area(from: Vec3, to: Vec3, normal: Vec3, area: f32) -> Option<f32> {
     let way = to - from;

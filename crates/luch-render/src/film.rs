@@ -150,6 +150,11 @@ impl Film {
         self.tiles.iter().map(|t| t.done.count() * t.sums.len() as u64).sum()
     }
 
+    /// Samples of the whole film whose indices are in `range`.
+    pub fn samples_within(&self, range: &Range<u64>) -> u64 {
+        self.tiles.iter().map(|t| t.done.count_within(range) * t.sums.len() as u64).sum()
+    }
+
     /// Mean number of samples of a pixel.
     pub fn mean_samples(&self) -> f64 {
         self.total_samples() as f64 / (f64::from(self.width) * f64::from(self.height))

@@ -70,7 +70,7 @@ mod tests {
     /// Variance of a filter by quadrature of its inverse.
     fn variance(filter: Filter) -> f64 {
         let sampler = FilterSampler::new(filter);
-        let n = 1 << 16;
+        let n = 1 << 20;
         (0..n).map(|i| f64::from(sampler.offset((i as f32 + 0.5) / n as f32))).map(|x| x * x).sum::<f64>()
             / f64::from(n)
     }

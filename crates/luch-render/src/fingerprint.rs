@@ -9,7 +9,7 @@ use std::io;
 const GENERATION: u32 = 1;
 
 /// A digest (BLAKE3) of everything that samples depend on: scene, camera, settings, and the generation of the algorithms.
-/// Films of equal fingerprints may be merged.
+/// Films of equal fingerprints may be merged. Names and things that nobody uses count as well: it never errs to the careless side.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Fingerprint([u8; 32]);
 

@@ -15,6 +15,14 @@ use std::collections::BTreeMap;
 /// Marks a primitive that does not shine.
 const DARK: u32 = u32::MAX;
 
+/// More are not sampled but only met by chance, which is as right and bounds the memory.
+const MOST_EMITTERS: usize = 1 << 26;
+
+/// A power that can be a weight: what is not a number must not put out all other lights.
+fn usable_power(power: f32) -> f32 {
+    if power > 0.0 { power.min(1e30) } else { 0.0 }
+}
+
 /// All that shines in a world.
 #[derive(Debug)]
 pub struct Lights {
@@ -64,8 +72,7 @@ impl Lights {
         let radius = if bounds.is_empty() { 1.0 } else { (bounds.max - bounds.min).length() / 2.0 };
         // A scene of planes alone has no size of its own.
         let radius = if radius > 0.0 && radius.is_finite() { radius } else { 1.0 };
-        let powers: Vec<f32> =
-            lights.emitters.iter().map(|e| e.power(scene, radius).clamp(0.0, 1e30)).collect();
+        let powers: Vec<f32> = lights.emitters.iter().map(|e| usable_power(e.power(scene, radius))).collect();
         lights.choice = Alias::new(&powers).ok();
         lights
     }
@@ -95,7 +102,9 @@ impl Lights {
                     let outward = normal_map * mesh.area_normal(triangle);
                     let emitter =
                         TriangleEmitter::new(corners, outward, index, triangle as u32, material, &emission);
-                    if let Some(emitter) = emitter {
+                    if let Some(emitter) = emitter
+                        && self.emitters.len() < MOST_EMITTERS
+                    {
                         *place = self.emitters.len() as u32;
                         self.emitters.push(Emitter::Triangle(emitter));
                     }
@@ -128,8 +137,10 @@ impl Lights {
     }
 
     /// Picks an emitter and a direction toward it; the density includes the choice.
-    pub fn sample(&self, scene: &Scene, from: Vec3, choice: f32, u: [f32; 2]) -> Option<EmitterSample> {
-        let picked = self.choice.as_ref()?.sample(choice);
+    ///
+    /// `choice` is uniform in [0, 1) with more digits than an `f32` has: a glowing mesh may be a million emitters.
+    pub fn sample(&self, scene: &Scene, from: Vec3, choice: f64, u: [f32; 2]) -> Option<EmitterSample> {
+        let picked = self.choice.as_ref()?.sample_f64(choice);
         let mut sample = self.emitters[picked.index].sample(scene, from, u)?;
         sample.pdf *= picked.probability;
         Some(sample)

@@ -57,12 +57,19 @@ fn unmixed(point: &SurfacePoint, sampler: &Sampler, bounce: u32) -> Id<Material>
     let scene = point.place.scene;
     let mut id = point.material;
     let mut depth = 0;
+    let mut chances = sampler.group(purpose::mix(bounce));
     // Parts stand before their mixture, so this ends.
     while let Surface::Mix { first, second, weight } = &scene.materials[id.index()].surface {
-        let chances = sampler.group(purpose::mix(bounce));
-        // Nested mixtures beyond four share numbers four levels apart.
-        let chance = chances[depth & 3];
-        id = if chance < point.place.scalar(weight) { *second } else { *first };
+        // What is left of a number after a decision is uniform again: deeper mixtures go on with it.
+        let chance = &mut chances[depth & 3];
+        let weight = unit(point.place.scalar(weight));
+        if *chance < weight {
+            *chance /= weight;
+            id = *second;
+        } else {
+            *chance = (*chance - weight) / (1.0 - weight);
+            id = *first;
+        }
         depth += 1;
     }
     id

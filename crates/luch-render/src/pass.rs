@@ -19,6 +19,9 @@ const WAVE: u64 = 4096;
 /// samples it has. A request to stop is heard within a batch, whose samples are then lost; a deadline only between batches, so
 /// that however often one comes, the work goes on.
 ///
+/// # Panics
+/// If film and view differ in size.
+///
 /// # Errors
 /// [`Stopped`] if `stop` came due before all were added; the film keeps what was.
 pub fn render_pass(
@@ -30,6 +33,8 @@ pub fn render_pass(
     stop: &Stop,
     done: &AtomicU64,
 ) -> Result<(), Stopped> {
+    let (seen, held) = ([view.width(), view.height()], [film.width(), film.height()]);
+    assert_eq!(seen, held, "the view and the film have different sizes");
     let step = film.step;
     let on_request = stop.with_deadline(None);
     film.tiles.par_iter_mut().with_max_len(1).try_for_each(|tile| {

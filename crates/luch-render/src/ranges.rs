@@ -31,6 +31,12 @@ impl Ranges {
         [a, self.count() - a]
     }
 
+    /// How many indices of `range` there are.
+    pub fn count_within(&self, range: &Range<u64>) -> u64 {
+        let cut = |r: &Range<u64>| r.end.min(range.end).saturating_sub(r.start.max(range.start));
+        self.0.iter().map(cut).sum()
+    }
+
     /// Adds a range; indices that are there already stay.
     pub fn insert(&mut self, new: Range<u64>) {
         if new.is_empty() {

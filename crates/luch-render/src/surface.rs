@@ -5,7 +5,7 @@ use crate::place::{Place, blend};
 use glam::{Mat3, Vec3};
 use luch_bvh::{InstanceHit, Ray};
 use luch_sampling::Frame;
-use luch_scene::{Id, Material, NormalMap, Scene, Shape};
+use luch_scene::{Id, Material, NormalMap, Scene, Shape, TextureUse};
 
 /// Half a unit in the last place of 1.
 const EPSILON: f32 = f32::EPSILON / 2.0;
@@ -115,14 +115,14 @@ impl<'a> SurfacePoint<'a> {
 
     /// The normal of a tangent-space map.
     fn mapped(&self, map: &NormalMap, normal: Vec3) -> Vec3 {
-        let Some(frame) = self.tangent_frame(normal) else { return normal };
+        let Some(frame) = self.tangent_frame(&map.texture, normal) else { return normal };
         let [r, g, b, _] = self.place.texture(&map.texture);
         let local = Vec3::new((2.0 * r - 1.0) * map.scale, (2.0 * g - 1.0) * map.scale, 2.0 * b - 1.0);
         (frame * local).try_normalize().unwrap_or(normal)
     }
 
-    /// Tangent along u, bitangent along v, normal, as columns.
-    fn tangent_frame(&self, normal: Vec3) -> Option<Mat3> {
+    /// Tangent along u of the map, bitangent along v, normal, as columns.
+    fn tangent_frame(&self, map: &TextureUse, normal: Vec3) -> Option<Mat3> {
         let linear = Mat3::from(self.place.instance.placement.matrix3);
         let mirrored = if linear.determinant() < 0.0 { -1.0 } else { 1.0 };
         let (tangent, handedness) = match self.place.shape {
@@ -133,7 +133,8 @@ impl<'a> SurfacePoint<'a> {
                     (tangent, given[0].w.signum() * mirrored)
                 } else {
                     let [a, b, c] = mesh.corners(triangle);
-                    let [ta, tb, tc] = mesh.corner_uvs(triangle, 0)?;
+                    let [ta, tb, tc] =
+                        mesh.corner_uvs(triangle, usize::from(map.uv_set))?.map(|uv| map.place(uv));
                     let (du, dv) = (tb - ta, tc - ta);
                     let determinant = du.x * dv.y - du.y * dv.x;
                     if determinant == 0.0 {
@@ -199,10 +200,10 @@ impl<'a> SurfacePoint<'a> {
         Ray::new(self.start_toward(direction), direction)
     }
 
-    /// The ray to `target`, ending just before it.
+    /// The ray to `target`, ending just before it. A target on a surface must be given on the near side of that.
     pub fn ray_to(&self, target: Vec3) -> Ray {
-        /// Leaves out the surface that the target lies on.
-        const BEFORE: f32 = 1.0 - 1e-4;
+        /// Leaves room for the rounding of the segment itself.
+        const BEFORE: f32 = 1.0 - 4.0 * f32::EPSILON;
         let start = self.start_toward(target - self.position);
         Ray { t_max: BEFORE, ..Ray::segment(start, target) }
     }

@@ -2,14 +2,14 @@
 
 use crate::filter::FilterSampler;
 use crate::purpose;
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 use luch_bvh::Ray;
 use luch_sampling::warp::disc;
 use luch_sampling::{Sampler, Sequence};
 use luch_scene::{Camera, Projection, Settings};
 
 /// Everything that turns a pixel into rays. It is not part of the [`World`](crate::World), so turning the camera costs a new
-/// film and nothing else.
+/// film and nothing else; only where a scene culls back faces, its world is made for the scene's own cameras.
 #[derive(Debug)]
 pub struct View {
     camera: Camera,
@@ -81,17 +81,14 @@ impl View {
         let y = (self.height as f32 / 2.0 - place.y) * scale;
         let lens =
             if self.camera.lens_radius > 0.0 { disc(lens) * self.camera.lens_radius } else { Vec2::ZERO };
-        let distance = self.camera.focus_distance;
-        // In the camera's own axes: from the lens to the point that is sharp.
-        let (start, sharp) = match self.camera.projection {
-            Projection::Perspective { .. } => {
-                (Vec3::new(lens.x, lens.y, 0.0), Vec3::new(x * distance, y * distance, -distance))
-            }
-            Projection::Orthographic { .. } => {
-                (Vec3::new(x + lens.x, y + lens.y, 0.0), Vec3::new(x, y, -distance))
-            }
+        // In the camera's own axes: from the lens to the point that is sharp, as slopes against the viewing axis.
+        let tilt = lens / self.camera.focus_distance;
+        let (start, slope) = match self.camera.projection {
+            Projection::Perspective { .. } => (lens, Vec2::new(x, y) - tilt),
+            Projection::Orthographic { .. } => (Vec2::new(x, y) + lens, -tilt),
         };
-        let direction = (self.camera.orientation * (sharp - start)).normalize();
+        let start = start.extend(0.0);
+        let direction = (self.camera.orientation * slope.extend(-1.0)).normalize();
         Ray::new(self.camera.position + self.camera.orientation * start, direction)
     }
 }

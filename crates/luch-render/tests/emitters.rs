@@ -228,13 +228,16 @@ fn drawn_directions_are_of_unit_length_lead_to_the_light_and_have_the_density_th
         let (mut drawn, mut off) = (0, 0);
         for i in 0..20_000 {
             let [u, v, choice, _] = Sampler::at(Sequence::Independent, 3, [0, 0], i).group(Domain::new(0, 0));
-            let Some(sample) = lights.sample(scene, case.from, choice, [u, v]) else { continue };
+            let Some(sample) = lights.sample(scene, case.from, f64::from(choice), [u, v]) else { continue };
             drawn += 1;
             assert!((sample.incoming.length() - 1.0).abs() < 1e-5, "{}", case.name);
             assert!(!sample.delta && sample.pdf > 0.0, "{}", case.name);
             if let Some(target) = sample.target {
                 let aside = (target - case.from).normalize().distance(sample.incoming);
-                assert!(aside < 1e-4, "{}: the target lies {aside} beside the direction", case.name);
+                // It is put before the surface, by 32 roundings of numbers of its own size; no lamp here is larger than two.
+                let moved = 32.0 * f32::EPSILON * (target.abs().max_element() + 2.0);
+                let allowed = 1e-5 + moved / target.distance(case.from);
+                assert!(aside < allowed, "{}: the target lies {aside} beside the direction", case.name);
             }
             // At a rim or between two cells rounding decides: a neighbouring direction will do.
             let frame = Frame::from_normal(sample.incoming);
@@ -276,7 +279,7 @@ fn light_sampling_gives_the_irradiance_of_plain_sampling_and_of_the_formula() {
         let cosine = |direction: Vec3, normal: Vec3| f64::from(direction.dot(normal).max(0.0));
         let by_light = |normal: Vec3| {
             mean(6, |[u, v, choice, _]| {
-                lights.sample(scene, case.from, choice, [u, v]).map_or(0.0, |sample| {
+                lights.sample(scene, case.from, f64::from(choice), [u, v]).map_or(0.0, |sample| {
                     f64::from(sample.radiance.r) * cosine(sample.incoming, normal) / f64::from(sample.pdf)
                 })
             })
@@ -326,7 +329,7 @@ fn histograms_of_drawn_directions_follow_the_density() {
             for i in 0..SAMPLES {
                 let [u, v, choice, _] =
                     Sampler::at(Sequence::Sobol, 8, [pixel, 0], i).group(Domain::new(0, 0));
-                if let Some(sample) = lights.sample(scene, case.from, choice, [u, v]) {
+                if let Some(sample) = lights.sample(scene, case.from, f64::from(choice), [u, v]) {
                     counts[cell(sample.incoming)] += 1.0 / SAMPLES as f64;
                 }
                 let [u, v, ..] = Sampler::at(Sequence::Sobol, 9, [pixel, 0], i).group(Domain::new(0, 0));
@@ -372,7 +375,8 @@ fn emitters_are_picked_by_power_and_black_ones_never() {
     let mut counts = [0_u32; 4];
     for i in 0..8192 {
         let [u, v, choice, _] = Sampler::at(Sequence::Sobol, 1, [0, 0], 2 * i).group(Domain::new(0, 0));
-        let sample = world.lights.sample(&world.scene, from, choice, [u, v]).expect("every choice shines");
+        let sample =
+            world.lights.sample(&world.scene, from, f64::from(choice), [u, v]).expect("every choice shines");
         let place = sample.target.unwrap().x / 10.0;
         counts[(place + 0.5) as usize] += 1;
     }
@@ -410,7 +414,7 @@ fn one_sided_emitters_are_dark_from_behind_and_inside() {
     ] {
         for i in 0..256 {
             let [u, v, choice, _] = Sampler::at(Sequence::Sobol, 1, [0, 0], i).group(Domain::new(0, 0));
-            assert_eq!(world.lights.sample(&world.scene, from, choice, [u, v]), None, "{name}");
+            assert_eq!(world.lights.sample(&world.scene, from, f64::from(choice), [u, v]), None, "{name}");
         }
     }
 }

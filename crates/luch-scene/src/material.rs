@@ -90,7 +90,8 @@ pub enum Surface {
         /// 1 is a mirror; the smaller, the more blurred; more than 0.
         glossiness: ScalarValue,
     },
-    /// At each point one of two materials, at random: `second` with probability `weight`.
+    /// At each point the surface of one of two materials, at random: `second` with probability `weight`. Emission, opacity, normal map
+    /// and sides are those of the mixture itself.
     Mix {
         /// Taken at weight 0.
         first: Id<Material>,

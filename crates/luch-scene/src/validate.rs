@@ -1,7 +1,8 @@
 //! What is wrong with a scene, in sentences.
 //!
 //! A scene without problems keeps the guarantees the renderer stands on: every id points at something, every list has the length
-//! its user expects, every number is finite and in its range, every placement can be inverted.
+//! its user expects, the numbers of materials, lights, cameras and settings are finite and in their ranges, every placement can be
+//! inverted. Triangles with corners that are no numbers are never met.
 
 use crate::{
     Camera, ColorValue, Environment, Filter, Id, Integrator, Light, Material, Opacity, Projection,
@@ -13,6 +14,12 @@ use luch_mesh::{Attribute, TriangleMesh};
 
 /// Largest number of pixels along a side of the picture.
 pub(crate) const LARGEST_SIDE: u32 = 1 << 16;
+
+/// Largest number of pixels of the picture: 72 bytes each make a film of 18 GiB.
+const MOST_PIXELS: u64 = 1 << 28;
+
+/// Most scatterings of a path.
+const DEEPEST_PATH: u32 = 1 << 20;
 
 impl Scene {
     /// Everything that would keep the scene from being rendered; empty if it is sound.
@@ -336,6 +343,10 @@ impl Problems<'_> {
             self.expect(position.is_finite() && orientation.is_finite(), || {
                 format!("camera {i} has a place or direction that is not finite")
             });
+            let turned = orientation.transpose() * orientation;
+            self.expect(turned.abs_diff_eq(glam::Mat3::IDENTITY, 1e-3), || {
+                format!("camera {i} has axes that are not at right angles and of length 1")
+            });
             match projection {
                 Projection::Perspective { field_of_view_y: angle } => self
                     .expect(angle > 0.0 && angle < std::f32::consts::PI, || {
@@ -358,6 +369,15 @@ impl Problems<'_> {
         for (side, name) in [(settings.width, "width"), (settings.height, "height")] {
             self.expect((1..=LARGEST_SIDE).contains(&side), || {
                 format!("picture {name} is {side}, expected 1 to {LARGEST_SIDE}")
+            });
+        }
+        let pixels = u64::from(settings.width) * u64::from(settings.height);
+        self.expect(pixels <= MOST_PIXELS, || {
+            format!("the picture has {pixels} pixels, expected at most {MOST_PIXELS}")
+        });
+        if let Integrator::Path { max_depth } | Integrator::PlainPath { max_depth } = settings.integrator {
+            self.expect(max_depth <= DEEPEST_PATH, || {
+                format!("paths have up to {max_depth} scatterings, expected at most {DEEPEST_PATH}")
             });
         }
         let radius = match settings.filter {

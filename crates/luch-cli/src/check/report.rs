@@ -107,7 +107,8 @@ impl Report {
         for CameraReport { name, position: [x, y, z], field_of_view } in &self.cameras {
             let lens = field_of_view
                 .map_or("parallel rays".to_owned(), |angle| format!("field of view {angle:.1}°"));
-            lines.push(format!("    \"{name}\" at ({x}, {y}, {z}), {lens}"));
+            let name = if name.is_empty() { "without a name" } else { &format!("\"{name}\"") };
+            lines.push(format!("    {name} at ({x}, {y}, {z}), {lens}"));
         }
         for TextureReport { width, height, bytes } in &self.textures {
             lines.push(format!("    picture {width}×{height}, {}", terminal::bytes(*bytes)));

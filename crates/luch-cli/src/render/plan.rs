@@ -8,9 +8,12 @@ use crate::film_file;
 use crate::layers::LayerChoice;
 use crate::outputs::{self, Outputs};
 use crate::recipe::{GoalWords, Recipe};
+use crate::reproduce::find_scene;
+use crate::same_file::{place, refuse_replacing};
 use crate::terminal;
 use luch::formats::Loaded;
 use luch::render::{Checkpoint, Film, Fingerprint, Goal, Provenance, View, World};
+use luch::scene::Integrator;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -43,9 +46,12 @@ impl Plan {
     pub(super) fn make(args: &RenderArgs) -> Result<Self, Failure> {
         let Places { scene: source, outputs, film: film_path, resumed, resumed_from } = Places::find(args)?;
         let files = Files::new(args, outputs, film_path)?;
+        refuse_replacing(&files.paths(), &[&source])?;
         files.paths().into_iter().try_for_each(outputs::probe)?;
 
-        let loaded = luch::load(&source)?;
+        let disk = luch::formats::Files::disk();
+        let loaded = luch::formats::load_with(&source, &disk)?;
+        refuse_replacing(&files.paths(), &disk.taken())?;
         if !args.work.quiet {
             announce(&loaded);
             announce_replaced(&files, resumed.is_some());
@@ -66,6 +72,7 @@ impl Plan {
         if recipe.goal.is_endless() {
             recipe.goal.samples = wishes.samples.map(|count| format!("0..{count}"));
         }
+        refuse_error_of_properties(&recipe)?;
         let camera = recipe.apply(&mut scene)?;
         let fingerprint = Fingerprint::of(&scene, &camera);
         if let Some(film) = &resumed {
@@ -95,6 +102,10 @@ impl Plan {
 impl Places {
     fn find(args: &RenderArgs) -> Result<Self, Failure> {
         let checkpoint = args.work.checkpoint.clone();
+        if let Some(path) = checkpoint.as_ref().filter(|path| !film_file::is_film(path)) {
+            let path = path.display();
+            return Err(Failure::usage(format!("{path}: --checkpoint keeps a film: let it end in .luch")));
+        }
         let typed = args.work.resume.clone();
         let resumes = typed.is_some();
         // `--resume X` takes X with it even if X is the scene.
@@ -120,7 +131,9 @@ impl Places {
         let resumed = if resumes { Some(read_film(&resumed_from)?) } else { None };
         let scene = match (scene, &resumed) {
             (Some(scene), _) => scene,
-            (None, Some(film)) => PathBuf::from(&film.provenance.source),
+            (None, Some(film)) => {
+                find_scene(&film.provenance.source, &resumed_from, "name the scene before --resume")?
+            }
             (None, None) => return Err(Failure::usage("name the scene to render")),
         };
         Ok(Self { scene, outputs, film, resumed, resumed_from })
@@ -144,6 +157,19 @@ fn goal_words(args: &RenderArgs) -> GoalWords {
         samples: range.map(|range| format!("{}..{}", range.start, range.end)),
         seconds: goal.time.map(|time| time.as_secs_f64()),
         relative_error: goal.error,
+    }
+}
+
+/// Properties may be negative and have a mean of zero: no error is relative to that.
+fn refuse_error_of_properties(recipe: &Recipe) -> Result<(), Failure> {
+    match recipe.settings()?.integrator {
+        Integrator::Inspect(property) if recipe.goal.relative_error.is_some() => {
+            let name = property.name();
+            Err(Failure::usage(format!(
+                "--error is for light; `{name}` is a property and has no relative error: use --spp or --time"
+            )))
+        }
+        _ => Ok(()),
     }
 }
 
@@ -192,11 +218,22 @@ impl Files {
             Some(_) if !outputs.have_layers() => {
                 return Err(Failure::usage("--layers is for EXR, and no output ends in .exr"));
             }
-            Some(layers) => layers.clone(),
+            // Each layer once, in the order they were named in.
+            Some(layers) => layers.iter().fold(Vec::new(), |mut once, layer| {
+                if !once.contains(layer) {
+                    once.push(*layer);
+                }
+                once
+            }),
             None => LayerChoice::USUAL.to_vec(),
         };
         let mut films: Vec<PathBuf> = outputs.films().map(Path::to_owned).collect();
-        if !args.work.no_checkpoint && !films.contains(&film) {
+        let is_film = |other: &Path| place(other) == place(&film);
+        if !args.work.no_checkpoint && !films.iter().any(|other| is_film(other)) {
+            if let Some(picture) = outputs.pictures().find(|picture| is_film(&picture.path)) {
+                let (picture, film) = (picture.path.display(), film.display());
+                return Err(Failure::usage(format!("{picture} and the film {film} are one file; name two")));
+            }
             films.push(film);
         }
         Ok(Self { outputs, films, layers })

@@ -11,10 +11,16 @@ use std::path::Path;
 pub(crate) fn command() -> String {
     let mut words: Vec<String> =
         std::env::args_os().map(|word| word.to_string_lossy().into_owned()).collect();
-    if !words.iter().any(|word| word == "--resume" || word.starts_with("--resume=")) {
-        words.push("--resume".to_owned());
-    }
+    insert_resume(&mut words);
     terminal::command_line(words)
+}
+
+/// After `--` there are no options, only files.
+fn insert_resume(words: &mut Vec<String>) {
+    let end = words.iter().position(|word| word == "--").unwrap_or(words.len());
+    if !words[..end].iter().any(|word| word == "--resume" || word.starts_with("--resume=")) {
+        words.insert(end, "--resume".to_owned());
+    }
 }
 
 /// Passes films of this very picture; otherwise says why it is another.

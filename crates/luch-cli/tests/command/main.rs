@@ -6,4 +6,5 @@ mod interrupt;
 mod merge;
 mod outputs;
 mod reproduce;
+mod safety;
 mod workplace;

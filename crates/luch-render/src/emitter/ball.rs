@@ -1,6 +1,6 @@
 //! A glowing sphere, sampled uniformly in the solid angle it is seen under.
 
-use super::{EmitterSample, pdf_of_area};
+use super::{EmitterSample, in_front, pdf_of_area};
 use crate::place::Place;
 use glam::{Affine3A, Vec3};
 use luch_image::Rgb;
@@ -73,7 +73,7 @@ impl BallEmitter {
             let to = self.center + out * self.radius;
             return EmitterSample::checked(
                 incoming,
-                Some(to),
+                Some(in_front(to, out, from, self.radius)),
                 self.radiance(scene, to),
                 cone_pdf(&cone),
                 false,
@@ -85,7 +85,14 @@ impl BallEmitter {
         let normal = sphere(u);
         let to = self.center + normal * self.radius;
         let pdf = pdf_of_area(from, to, normal, self.area())?;
-        EmitterSample::checked((to - from).try_normalize()?, Some(to), self.radiance(scene, to), pdf, false)
+        let target = in_front(to, normal, from, self.radius);
+        EmitterSample::checked(
+            (to - from).try_normalize()?,
+            Some(target),
+            self.radiance(scene, to),
+            pdf,
+            false,
+        )
     }
 
     pub(crate) fn pdf(&self, from: Vec3, to: Vec3) -> f32 {

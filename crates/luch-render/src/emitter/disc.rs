@@ -1,6 +1,6 @@
 //! A glowing disc, sampled uniformly in area.
 
-use super::{EmitterSample, pdf_of_area};
+use super::{EmitterSample, in_front, pdf_of_area};
 use crate::place::Place;
 use glam::{Affine3A, Vec3};
 use luch_image::Rgb;
@@ -64,7 +64,7 @@ impl DiscEmitter {
         let pdf = pdf_of_area(from, to, self.normal, self.area)?;
         EmitterSample::checked(
             (to - from).try_normalize()?,
-            Some(to),
+            Some(in_front(to, self.normal, from, self.local_radius)),
             self.radiance(scene, local),
             pdf,
             false,

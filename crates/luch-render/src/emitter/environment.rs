@@ -140,7 +140,7 @@ fn weights(image: &Bitmap, scale: Rgb) -> Vec<f32> {
     let (width, height) = (image.width as usize, image.height as usize);
     let luminance: Vec<f32> = (0..height)
         .flat_map(|y| (0..width).map(move |x| (x, y)))
-        .map(|(x, y)| (pixel(image, x as u32, y as u32) * scale).luminance())
+        .map(|(x, y)| (pixel(image, x as u32, y as u32) * scale).luminance().min(1e30))
         .collect();
     // Over half a pixel beside its centre, linear interpolation gives a neighbour the weights 1/8, 6/8, 1/8.
     let across: Vec<f32> = (0..height)

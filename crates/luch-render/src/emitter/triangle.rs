@@ -2,7 +2,7 @@
 //!
 //! Seen under a large angle it is sampled uniformly in solid angle (Arvo 1995), otherwise uniformly in area.
 
-use super::{EmitterSample, pdf_of_area};
+use super::{EmitterSample, in_front, pdf_of_area};
 use crate::place::Place;
 use glam::Vec3;
 use luch_image::Rgb;
@@ -58,6 +58,10 @@ impl TriangleEmitter {
         SphericalTriangle::new(from, self.corners).filter(|t| t.solid_angle() >= LARGE)
     }
 
+    fn target(&self, from: Vec3, to: Vec3) -> Vec3 {
+        in_front(to, self.normal, from, 0.0)
+    }
+
     fn faces(&self, from: Vec3) -> bool {
         self.two_sided || (from - self.corners[0]).dot(self.normal) > 0.0
     }
@@ -84,19 +88,20 @@ impl TriangleEmitter {
         if let Some(seen) = self.spherical(from) {
             let drawn = seen.sample(u);
             let radiance = self.radiance(scene, drawn.barycentrics);
-            return EmitterSample::checked(
-                drawn.direction,
-                Some(point(drawn.barycentrics)),
-                radiance,
-                drawn.pdf,
-                false,
-            );
+            let target = self.target(from, point(drawn.barycentrics));
+            return EmitterSample::checked(drawn.direction, Some(target), radiance, drawn.pdf, false);
         }
         let weights = triangle(u);
         let to = point(weights);
         let pdf = pdf_of_area(from, to, self.normal, self.area)?;
         let incoming = (to - from).try_normalize()?;
-        EmitterSample::checked(incoming, Some(to), self.radiance(scene, weights), pdf, false)
+        EmitterSample::checked(
+            incoming,
+            Some(self.target(from, to)),
+            self.radiance(scene, weights),
+            pdf,
+            false,
+        )
     }
 
     pub(crate) fn pdf(&self, from: Vec3, to: Vec3) -> f32 {

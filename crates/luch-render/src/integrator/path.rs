@@ -12,7 +12,7 @@ use crate::wave::{Origin, Path, Shadows, Wave};
 use crate::world::World;
 use glam::Vec3;
 use luch_image::Rgb;
-use luch_sampling::mis;
+use luch_sampling::{hash, mis};
 
 /// Path tracing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,7 +79,9 @@ impl PathTracer {
 
         // Light sampled from here.
         if !bsdf.is_specular() {
-            let [choice, u, v, _] = path.sampler.group(purpose::light(path.depth));
+            let [choice, u, v, _] = path.sampler.group_words(purpose::light(path.depth));
+            let choice = f64::from(choice) / 4_294_967_296.0;
+            let [u, v] = [u, v].map(hash::unit_f32);
             if let Some(light) = world.lights.sample(&world.scene, point.position, choice, [u, v])
                 && point.is_honest(light.incoming)
             {

@@ -20,12 +20,15 @@ pub struct PlainPathTracer {
 }
 
 impl PlainPathTracer {
-    fn trace(&self, world: &World, sample: &CameraSample) -> Rgb {
+    fn trace(&self, world: &World, sample: &CameraSample, stop: &Stop) -> Result<Rgb, Stopped> {
         let scene = &world.scene;
         let sampler = &sample.sampler;
         let (mut radiance, mut throughput) = (Rgb::BLACK, Rgb::WHITE);
         let mut ray = sample.ray;
         for depth in 0.. {
+            if depth & 63 == 63 {
+                stop.check()?;
+            }
             let Some(hit) =
                 world.geometry.nearest_hit(scene, &ray, opacity_key(sampler, purpose::opacity(depth)))
             else {
@@ -52,7 +55,7 @@ impl PlainPathTracer {
             throughput *= factor;
             ray = point.ray_toward(incoming);
         }
-        radiance
+        Ok(radiance)
     }
 }
 
@@ -67,7 +70,7 @@ impl Integrator for PlainPathTracer {
         for (samples, radiance) in samples.chunks(256).zip(radiance.chunks_mut(256)) {
             stop.check()?;
             for (sample, radiance) in samples.iter().zip(radiance) {
-                *radiance = self.trace(world, sample);
+                *radiance = self.trace(world, sample, stop)?;
             }
         }
         Ok(())

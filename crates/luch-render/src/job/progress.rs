@@ -31,6 +31,8 @@ pub(super) struct Tracker {
     /// Samples added by this job.
     pub(super) samples: AtomicU64,
     before: u64,
+    /// Those of them that the goal asks for.
+    before_of_goal: u64,
     pixels: u64,
     goal: Goal,
     started: Instant,
@@ -50,6 +52,7 @@ impl Tracker {
         Self {
             samples: AtomicU64::new(0),
             before: film.total_samples(),
+            before_of_goal: film.samples_within(&goal.samples),
             pixels: u64::from(film.width()) * u64::from(film.height()),
             goal: goal.clone(),
             started: Instant::now(),
@@ -102,7 +105,9 @@ impl Tracker {
 
         let by_time = self.goal.time.map(|time| time.saturating_sub(elapsed));
         let after = |missing: f64| Duration::try_from_secs_f64((missing / rate).max(0.0)).ok();
-        let by_samples = wanted.and_then(|count| after(count as f64 * self.pixels as f64 - samples as f64));
+        let by_samples = wanted.and_then(|count| {
+            after(count as f64 * self.pixels as f64 - (self.before_of_goal + added) as f64)
+        });
         let by_error = self.goal.relative_error.zip(error).and_then(|(goal, error)| {
             let needed = per_pixel * libm::pow(error.relative / goal, 1.0 / slope.unwrap_or(0.5));
             // Judged at doublings only.
