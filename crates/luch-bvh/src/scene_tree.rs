@@ -16,8 +16,9 @@ use placed::Placed;
 
 use crate::build::Quality;
 use crate::tree::{Stack, bound_inside};
-use crate::{Aabb, Bvh, Coherence, Hit, Interval, Ray, SlabRay};
+use crate::{Aabb, Bvh, Coherence, Hit, Interval, Ray, SlabRay, TriangleBvh};
 use glam::Affine3A;
+use std::sync::Arc;
 
 /// One copy of a geometry in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,6 +52,9 @@ pub struct SceneTree {
     tree: Bvh,
     /// Indices of the instances without one, always tested.
     unbounded: Vec<u32>,
+    /// The triangles of the one instance that there is, if it stands where it was made: the world then needs no tree.
+    /// Its hits lie within the boxes of its triangles and so within its own: clamping would change nothing.
+    alone: Option<Arc<TriangleBvh>>,
 }
 
 /// One stack for each level.
@@ -76,7 +80,16 @@ impl SceneTree {
             |placed: &Option<Placed>| placed.as_ref().is_some_and(|placed| placed.bounds.is_none());
         let numbered = (0..u32::MAX).zip(&placed);
         let unbounded = numbered.filter(|(_, placed)| is_unbounded(placed)).map(|(index, _)| index).collect();
-        Self { tree: Bvh::build(&boxes, quality), geometries, placed, unbounded }
+        let alone = match instances {
+            [only] if only.placement == Affine3A::IDENTITY && !only.filtered && !only.cull_back => {
+                match geometries.get(only.geometry as usize) {
+                    Some(Geometry::Triangles(triangles)) => Some(Arc::clone(triangles)),
+                    _ => None,
+                }
+            }
+            _ => None,
+        };
+        Self { tree: Bvh::build(&boxes, quality), geometries, placed, unbounded, alone }
     }
 
     /// The geometries as they were given.
@@ -160,6 +173,10 @@ impl SceneTree {
         stacks: &mut Stacks,
         mut filter: impl FnMut(&InstanceHit) -> bool,
     ) -> Option<InstanceHit> {
+        if let Some(triangles) = &self.alone {
+            let hit = triangles.search(ray, f32::INFINITY, &mut stacks.object, |_| true, |_| true)?;
+            return Some(InstanceHit { instance: 0, hit });
+        }
         let slab = SlabRay::new(ray)?;
         let mut bound = slab.t_max;
         let mut best: Option<InstanceHit> = None;
@@ -210,6 +227,9 @@ impl SceneTree {
     }
 
     fn meets(&self, ray: &Ray, stacks: &mut Stacks, mut filter: impl FnMut(&InstanceHit) -> bool) -> bool {
+        if let Some(triangles) = &self.alone {
+            return triangles.meets(ray, &mut stacks.object, |_| true, |_| true);
+        }
         let Some(slab) = SlabRay::new(ray) else { return false };
         let Stacks { world, object } = stacks;
         let whole = Interval { near: slab.t_min, far: slab.t_max };
