@@ -14,7 +14,7 @@ const LAYERS: [&[&str]; 6] = [
 ];
 
 /// Where an outside crate may be used; anything not named here may be used anywhere.
-const ADDRESSES: [(&str, &[&str]); 8] = [
+const ADDRESSES: [(&str, &[&str]); 10] = [
     ("rayon", &["luch-bvh", "luch-render"]),
     ("clap", &["luch-cli"]),
     ("ctrlc", &["luch-cli"]),
@@ -23,6 +23,8 @@ const ADDRESSES: [(&str, &[&str]); 8] = [
     ("image", &["luch-image"]),
     ("earcut", &["luch-mesh"]),
     ("tempfile", &["luch-formats"]),
+    ("flate2", &["luch-formats"]),
+    ("roxmltree", &["luch-formats"]),
 ];
 
 /// Fails if any crate depends upward or sideways, or uses a library outside its address.

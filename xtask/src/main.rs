@@ -1,6 +1,7 @@
 //! Chores of the workspace. `cargo run -p xtask -- layers` is part of every check.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command speaks to people")]
 
+mod bench;
 mod gallery;
 mod layers;
 
@@ -13,7 +14,8 @@ fn main() -> ExitCode {
         "layers" => layers::check(&root()),
         "gallery" => gallery::render(&root()),
         "check" => check(),
-        _ => Err("usage: cargo run -p xtask -- check | layers | gallery".to_owned()),
+        "bench" => bench::run(&root(), &std::env::args_os().skip(2).collect::<Vec<_>>()),
+        _ => Err("usage: cargo run -p xtask -- check | layers | gallery | bench".to_owned()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

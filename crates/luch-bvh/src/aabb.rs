@@ -126,8 +126,8 @@ impl Aabb {
     }
 }
 
-/// Part by which boxes are widened to cover rounding: 2⁻²⁰, about 16 units in the last place.
-pub(crate) const PADDING: f32 = 1.0 / 1_048_576.0;
+/// Part by which boxes are widened to cover rounding: 2⁻¹⁸.
+pub(crate) const PADDING: f32 = 1.0 / 262_144.0;
 
 fn narrow(value: [f64; 3]) -> Vec3 {
     Vec3::new(value[0] as f32, value[1] as f32, value[2] as f32)

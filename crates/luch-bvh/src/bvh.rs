@@ -1,7 +1,9 @@
 //! A tree over boxes; what is in them only the caller knows.
 
-use crate::build::{Quality, Reference, build};
-use crate::tree::{Stack, Statistics, Tree};
+use crate::build::{Quality, Reference, build_wide};
+use crate::simd::{Isa, Kernel, Prepared, Stack, launch, walk};
+use crate::tree::{Statistics, Tree};
+use crate::wide::NO_PRIMITIVE;
 use crate::{Aabb, Hit, Ray, SlabRay};
 use glam::Vec3;
 
@@ -9,10 +11,14 @@ use glam::Vec3;
 #[derive(Clone, Debug)]
 pub struct Bvh {
     tree: Tree,
-    /// In leaf order.
-    boxes: Vec<Aabb>,
-    /// Index of each box as it was given, in leaf order.
-    primitives: Vec<u32>,
+    leaves: Vec<Leaf>,
+}
+
+/// Up to four boxes and their numbers, [`NO_PRIMITIVE`] where there is none.
+#[derive(Clone, Copy, Debug)]
+struct Leaf {
+    boxes: [Aabb; 4],
+    primitives: [u32; 4],
 }
 
 /// The primitive nearest to a point.
@@ -33,23 +39,24 @@ impl Bvh {
         let numbered = (0..u32::MAX).zip(boxes);
         let mut references: Vec<_> =
             numbered.filter_map(|(primitive, bounds)| Reference::new(*bounds, primitive)).collect();
-        let tree = build(&mut references, quality);
-        Self {
-            tree,
-            boxes: references.iter().map(|reference| reference.bounds).collect(),
-            primitives: references.iter().map(|reference| reference.primitive).collect(),
-        }
+        let wide = build_wide(&mut references, quality, None);
+        let own = |primitive: u32| match primitive {
+            NO_PRIMITIVE => Aabb::empty(),
+            primitive => boxes[primitive as usize],
+        };
+        let leaf = |primitives: &[u32; 4]| Leaf { boxes: primitives.map(own), primitives: *primitives };
+        let leaves = wide.leaves.iter().map(leaf).collect();
+        Self { tree: Tree::new(wide), leaves }
     }
 
     /// The box of all boxes.
     pub fn bounds(&self) -> Aabb {
-        self.tree.bounds
+        self.tree.bounds()
     }
 
     /// The size and worth of the tree.
     pub fn statistics(&self) -> Statistics {
-        let bytes = self.boxes.len() * (size_of::<Aabb>() + size_of::<u32>());
-        self.tree.statistics(bytes)
+        self.tree.statistics(|leaf| self.leaves[leaf].entries().count(), size_of_val(self.leaves.as_slice()))
     }
 
     /// The nearest hit; of equally near ones that of the lowest primitive.
@@ -59,9 +66,8 @@ impl Bvh {
     pub fn nearest(&self, ray: &Ray, mut leaf: impl FnMut(u32, &Ray) -> Option<Hit>) -> Option<Hit> {
         let slab = SlabRay::new(ray)?;
         let mut best: Option<Hit> = None;
-        self.visit(&slab, slab.t_max, &mut Stack::new(), |place, mut bound| {
-            let primitive = self.primitives[place];
-            if let Some(hit) = Self::clamped(&slab, &self.boxes[place], primitive, leaf(primitive, ray))
+        self.visit(ray, |primitive, bounds, mut bound| {
+            if let Some(hit) = Self::clamped(&slab, bounds, primitive, leaf(primitive, ray))
                 && hit.precedes(best.as_ref(), bound)
             {
                 bound = hit.t;
@@ -76,9 +82,8 @@ impl Bvh {
     pub fn any(&self, ray: &Ray, mut leaf: impl FnMut(u32, &Ray) -> bool) -> bool {
         let Some(slab) = SlabRay::new(ray) else { return false };
         let mut found = false;
-        self.visit(&slab, slab.t_max, &mut Stack::new(), |place, bound| {
-            found =
-                found || (slab.interval(&self.boxes[place]).is_some() && leaf(self.primitives[place], ray));
+        self.visit(ray, |primitive, bounds, bound| {
+            found = found || (slab.interval(bounds).is_some() && leaf(primitive, ray));
             if found { f32::NEG_INFINITY } else { bound }
         });
         found
@@ -98,12 +103,11 @@ impl Bvh {
         }
         let mut best: Option<(f32, NearestPoint)> = None;
         let limit = max_distance * max_distance;
-        self.tree.walk_near(point, limit, |places, mut bound| {
-            for place in places {
-                let primitive = self.primitives[place];
+        self.tree.walk_near(point, limit, |leaf, mut bound| {
+            for (primitive, bounds) in self.leaves[leaf].entries() {
                 let Some(found) = nearest_on(primitive) else { continue };
                 // Never nearer than its own box, as in the theorem of rays.
-                let squared = (found - point).length_squared().max(self.boxes[place].distance_squared(point));
+                let squared = (found - point).length_squared().max(bounds.distance_squared(point));
                 let precedes = best.is_none_or(|(least, best)| {
                     squared < least || (squared == least && primitive < best.primitive)
                 });
@@ -118,31 +122,12 @@ impl Bvh {
         best.map(|(_, nearest)| nearest)
     }
 
-    /// Hands the place of every box that may matter to `visit`, which returns the bound from now on.
-    #[inline(always)]
-    pub(crate) fn visit(
-        &self,
-        ray: &SlabRay,
-        bound: f32,
-        stack: &mut Stack,
-        mut visit: impl FnMut(usize, f32) -> f32,
-    ) {
-        self.tree.walk(ray, bound, stack, |places, mut bound| {
-            for place in places {
-                bound = visit(place, bound);
-            }
-            bound
-        });
-    }
-
-    /// Index of the primitive at a place, as it was given.
-    pub(crate) fn primitive(&self, place: usize) -> u32 {
-        self.primitives[place]
-    }
-
-    /// The box at a place.
-    pub(crate) fn bounds_at(&self, place: usize) -> &Aabb {
-        &self.boxes[place]
+    /// Hands every primitive whose leaf may matter to `visit`, with its box and the bound so far; `visit` returns the bound
+    /// from now on, -∞ to end.
+    fn visit(&self, ray: &Ray, visit: impl FnMut(u32, &Aabb, f32) -> f32) {
+        if let Some(ray) = Prepared::new(ray) {
+            launch(Visit { bvh: self, ray: &ray, visit });
+        }
     }
 
     fn clamped(slab: &SlabRay, bounds: &Aabb, primitive: u32, hit: Option<Hit>) -> Option<Hit> {
@@ -150,5 +135,41 @@ impl Bvh {
         let on_ray = slab.t_min <= hit.t && hit.t <= slab.t_max;
         let t = slab.clamp(bounds, hit.t)?;
         on_ray.then_some(Hit { t, primitive, ..hit })
+    }
+
+    pub(crate) fn tree(&self) -> &Tree {
+        &self.tree
+    }
+
+    /// The numbers and boxes in a leaf.
+    pub(crate) fn entries(&self, leaf: usize) -> impl Iterator<Item = (u32, &Aabb)> {
+        self.leaves[leaf].entries()
+    }
+}
+
+impl Leaf {
+    fn entries(&self) -> impl Iterator<Item = (u32, &Aabb)> {
+        let all = self.primitives.iter().copied().zip(&self.boxes);
+        all.take_while(|(primitive, _)| *primitive != NO_PRIMITIVE)
+    }
+}
+
+struct Visit<'a, F> {
+    bvh: &'a Bvh,
+    ray: &'a Prepared,
+    visit: F,
+}
+
+impl<F: FnMut(u32, &Aabb, f32) -> f32> Kernel for Visit<'_, F> {
+    type Output = ();
+    #[inline(always)]
+    fn run<I: Isa>(mut self) {
+        let Self { bvh, ray, .. } = self;
+        walk::<I>(&bvh.tree, ray, ray.whole().far, &mut Stack::new(), |leaf, mut bound| {
+            for (primitive, bounds) in bvh.entries(leaf) {
+                bound = (self.visit)(primitive, bounds, bound);
+            }
+            bound
+        });
     }
 }

@@ -26,10 +26,12 @@ mod hit;
 mod ray;
 mod scene_tree;
 pub mod shape;
+pub mod simd;
 pub mod slab;
 mod tree;
 pub mod triangle;
 mod triangle_bvh;
+mod wide;
 
 pub use aabb::Aabb;
 pub use brute_force::{BruteForce, TriangleTest};

@@ -20,16 +20,19 @@ pub struct Ray {
 
 impl Ray {
     /// The whole half-line from `origin` along `direction`.
+    #[inline]
     pub fn new(origin: Vec3, direction: Vec3) -> Self {
         Self { origin, direction, t_min: 0.0, t_max: f32::INFINITY }
     }
 
     /// The segment from `from` to `to`, both ends included: `t` runs from 0 to 1.
+    #[inline]
     pub fn segment(from: Vec3, to: Vec3) -> Self {
         Self { origin: from, direction: to - from, t_min: 0.0, t_max: 1.0 }
     }
 
     /// The point at parameter `t`.
+    #[inline]
     pub fn at(&self, t: f32) -> Vec3 {
         self.origin + self.direction * t
     }

@@ -10,13 +10,17 @@
 
 mod geometry;
 mod placed;
+mod search;
 
 pub use geometry::Geometry;
-use placed::Placed;
+pub(crate) use placed::Placed;
+use search::{Any, Batch, Nearest};
+pub(crate) use search::bound_inside;
 
 use crate::build::Quality;
-use crate::tree::{Stack, bound_inside};
-use crate::{Aabb, Bvh, Coherence, Hit, Interval, Ray, SlabRay, TriangleBvh};
+use crate::simd::launch;
+use crate::tree::Tree;
+use crate::{Aabb, Bvh, Coherence, Hit, Ray, TriangleBvh};
 use glam::Affine3A;
 use std::sync::Arc;
 
@@ -57,18 +61,6 @@ pub struct SceneTree {
     alone: Option<Arc<TriangleBvh>>,
 }
 
-/// One stack for each level.
-struct Stacks {
-    world: Stack,
-    object: Stack,
-}
-
-impl Stacks {
-    fn new() -> Self {
-        Self { world: Stack::new(), object: Stack::new() }
-    }
-}
-
 impl SceneTree {
     /// Builds the tree over instances. An instance whose geometry is not in the list is never hit.
     pub fn build(geometries: Vec<Geometry>, instances: &[Instance], quality: Quality) -> Self {
@@ -104,7 +96,7 @@ impl SceneTree {
 
     /// The nearest hit; of equally near ones that of the lowest instance, then of the lowest primitive.
     pub fn nearest(&self, ray: &Ray) -> Option<InstanceHit> {
-        self.search(ray, &mut Stacks::new(), |_| true)
+        self.nearest_filtered(ray, |_| true)
     }
 
     /// The nearest hit that counts. Hits of instances that are not `filtered` all do; of the others those do for which
@@ -115,17 +107,17 @@ impl SceneTree {
         ray: &Ray,
         filter: impl FnMut(&InstanceHit) -> bool,
     ) -> Option<InstanceHit> {
-        self.search(ray, &mut Stacks::new(), filter)
+        launch(Nearest { scene: self, ray, filter })
     }
 
     /// Whether the ray meets anything.
     pub fn any(&self, ray: &Ray) -> bool {
-        self.meets(ray, &mut Stacks::new(), |_| true)
+        self.any_filtered(ray, |_| true)
     }
 
     /// Whether the ray meets anything that counts; `filter` as in [`SceneTree::nearest_filtered`].
     pub fn any_filtered(&self, ray: &Ray, filter: impl FnMut(&InstanceHit) -> bool) -> bool {
-        self.meets(ray, &mut Stacks::new(), filter)
+        launch(Any { scene: self, ray, filter })
     }
 
     /// [`SceneTree::nearest`] of each ray, into the place of the same index; on the calling thread. Where the slices differ
@@ -144,13 +136,12 @@ impl SceneTree {
         &self,
         rays: &[Ray],
         hits: &mut [Option<InstanceHit>],
-        _coherence: Coherence,
-        mut filter: impl FnMut(usize, &InstanceHit) -> bool,
+        coherence: Coherence,
+        filter: impl FnMut(usize, &InstanceHit) -> bool,
     ) {
-        let mut stacks = Stacks::new();
-        for (index, (ray, hit)) in rays.iter().zip(hits).enumerate() {
-            *hit = self.search(ray, &mut stacks, |hit| filter(index, hit));
-        }
+        let rays = &rays[..rays.len().min(hits.len())];
+        let answer = |index: usize, hit| hits[index] = hit;
+        launch(Batch::<_, _, false> { scene: self, rays, coherence, filter, answer });
     }
 
     /// [`SceneTree::any_filtered`] of each ray; the filter is also told the index of the ray.
@@ -158,107 +149,38 @@ impl SceneTree {
         &self,
         rays: &[Ray],
         met: &mut [bool],
-        _coherence: Coherence,
-        mut filter: impl FnMut(usize, &InstanceHit) -> bool,
+        coherence: Coherence,
+        filter: impl FnMut(usize, &InstanceHit) -> bool,
     ) {
-        let mut stacks = Stacks::new();
-        for (index, (ray, met)) in rays.iter().zip(met).enumerate() {
-            *met = self.meets(ray, &mut stacks, |hit| filter(index, hit));
-        }
+        let rays = &rays[..rays.len().min(met.len())];
+        let answer = |index: usize, hit: Option<InstanceHit>| met[index] = hit.is_some();
+        launch(Batch::<_, _, true> { scene: self, rays, coherence, filter, answer });
     }
 
-    fn search(
-        &self,
-        ray: &Ray,
-        stacks: &mut Stacks,
-        mut filter: impl FnMut(&InstanceHit) -> bool,
-    ) -> Option<InstanceHit> {
-        if let Some(triangles) = &self.alone {
-            let hit = triangles.search(ray, f32::INFINITY, &mut stacks.object, |_| true, |_| true)?;
-            return Some(InstanceHit { instance: 0, hit });
-        }
-        let slab = SlabRay::new(ray)?;
-        let mut bound = slab.t_max;
-        let mut best: Option<InstanceHit> = None;
-        let whole = Interval { near: slab.t_min, far: slab.t_max };
-        let Stacks { world, object } = stacks;
-        let mut visit = |instance: u32, interval: Interval, mut bound: f32| {
-            if let Some(hit) = self.instance_hit(instance, ray, interval, bound, object, &mut filter)
-                && hit.precedes(best.as_ref(), bound)
-            {
-                bound = hit.hit.t;
-                best = Some(hit);
-            }
-            bound
-        };
-        for &instance in &self.unbounded {
-            bound = visit(instance, whole, bound);
-        }
-        self.tree.visit(&slab, bound, world, |place, bound| {
-            match slab.interval(self.tree.bounds_at(place)) {
-                Some(interval) if interval.near <= bound => {
-                    visit(self.tree.primitive(place), interval, bound)
-                }
-                _ => bound,
-            }
-        });
-        best
+    /// The tree over the instances that have a box.
+    pub(crate) fn bvh(&self) -> &Bvh {
+        &self.tree
     }
 
-    /// The hit of one instance unless it lies beyond `bound`.
-    #[inline(always)]
-    fn instance_hit(
-        &self,
-        instance: u32,
-        ray: &Ray,
-        interval: Interval,
-        bound: f32,
-        stack: &mut Stack,
-        filter: &mut impl FnMut(&InstanceHit) -> bool,
-    ) -> Option<InstanceHit> {
-        let placed = self.placed[instance as usize].as_ref()?;
-        let geometry = &self.geometries[placed.geometry as usize];
-        let of_world = |hit: &Hit| InstanceHit { instance, hit: Hit { t: interval.clamp(hit.t), ..*hit } };
-        let ray = placed.toward_object(ray);
-        let bound = bound_inside(&interval, bound);
-        let hit = geometry
-            .nearest(&ray, bound, stack, placed.cull_back, |hit| !placed.filtered || filter(&of_world(hit)));
-        hit.map(|hit| of_world(&hit))
+    /// The nodes of that tree.
+    pub(crate) fn tree(&self) -> &Tree {
+        self.tree.tree()
     }
 
-    fn meets(&self, ray: &Ray, stacks: &mut Stacks, mut filter: impl FnMut(&InstanceHit) -> bool) -> bool {
-        if let Some(triangles) = &self.alone {
-            return triangles.meets(ray, &mut stacks.object, |_| true, |_| true);
-        }
-        let Some(slab) = SlabRay::new(ray) else { return false };
-        let Stacks { world, object } = stacks;
-        let whole = Interval { near: slab.t_min, far: slab.t_max };
-        let mut met = |instance: u32, interval: Interval| {
-            let Some(placed) = self.placed[instance as usize].as_ref() else { return false };
-            let geometry = &self.geometries[placed.geometry as usize];
-            let ray = placed.toward_object(ray);
-            geometry.any(&ray, object, placed.cull_back, |hit| {
-                let of_world = InstanceHit { instance, hit: Hit { t: interval.clamp(hit.t), ..*hit } };
-                !placed.filtered || filter(&of_world)
-            })
-        };
-        if self.unbounded.iter().any(|&instance| met(instance, whole)) {
-            return true;
-        }
-        let mut found = false;
-        self.tree.visit(&slab, slab.t_max, world, |place, bound| {
-            if !found && let Some(interval) = slab.interval(self.tree.bounds_at(place)) {
-                found = met(self.tree.primitive(place), interval);
-            }
-            if found { f32::NEG_INFINITY } else { bound }
-        });
-        found
+    /// By instance; `None` for one that is never hit.
+    pub(crate) fn placed(&self) -> &[Option<Placed>] {
+        &self.placed
+    }
+
+    /// Indices of the instances without a box.
+    pub(crate) fn unbounded(&self) -> &[u32] {
+        &self.unbounded
     }
 }
 
 impl InstanceHit {
     /// Whether this hit comes before the best one so far, by `(t, instance)`; without one, at or before `bound`.
-    fn precedes(&self, best: Option<&Self>, bound: f32) -> bool {
+    pub(crate) fn precedes(&self, best: Option<&Self>, bound: f32) -> bool {
         match best {
             Some(best) => {
                 self.hit.t < best.hit.t || (self.hit.t == best.hit.t && self.instance < best.instance)

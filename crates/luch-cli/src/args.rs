@@ -1,7 +1,9 @@
 //! What was typed.
 
+mod bench;
 mod render;
 
+pub(crate) use bench::{BenchArgs, BenchVerb, CameraArgs, Choice, RaysArgs};
 pub(crate) use render::{PictureArgs, ProgressStyle, RenderArgs};
 
 use crate::parse;
@@ -28,6 +30,7 @@ pub(crate) enum Verb {
     Develop(DevelopArgs),
     Compare(CompareArgs),
     Check(CheckArgs),
+    Bench(Box<BenchArgs>),
     Completions(CompletionsArgs),
 }
 
@@ -96,7 +99,7 @@ pub(crate) struct MergeArgs {
 pub(crate) struct DevelopArgs {
     /// A film (.luch)
     pub(crate) film: PathBuf,
-    /// Pictures to write: .png, .jpg, .exr, .hdr, .pfm
+    /// Pictures to write: .png, .jpg, .exr, .hdr, .pfm, .npy
     #[arg(short, long, required = true, value_name = "FILE")]
     pub(crate) output: Vec<PathBuf>,
     #[command(flatten)]

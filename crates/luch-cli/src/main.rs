@@ -2,12 +2,13 @@
 //!
 //! | exit status | meaning |
 //! |---|---|
-//! | 0 | done; `reproduce`: equal; `compare`: within the limits |
-//! | 1 | failed; `reproduce`: different; `compare`: a limit is exceeded; `check`: cannot be rendered |
+//! | 0 | done; `reproduce`: equal; `compare`: within the limits; `bench`: all answers the same |
+//! | 1 | failed; `reproduce`: different; `compare`: a limit is exceeded; `check`: cannot be rendered; `bench`: answers differ |
 //! | 2 | the command line cannot be understood |
 //! | 130 | stopped by Ctrl-C or a request to end; what was rendered is saved |
 
 mod args;
+mod bench;
 mod check;
 mod compare;
 mod completions;
@@ -20,6 +21,7 @@ mod layers;
 mod merge;
 mod outputs;
 mod parse;
+mod processor_time;
 mod progress;
 mod provenance;
 mod recipe;
@@ -40,6 +42,7 @@ fn main() -> ExitCode {
         Verb::Develop(args) => develop::run(&args),
         Verb::Compare(args) => compare::run(&args),
         Verb::Check(args) => check::run(&args),
+        Verb::Bench(args) => bench::run(&args),
         Verb::Completions(args) => completions::run(&args),
     };
     match result {

@@ -98,6 +98,7 @@ impl Outputs {
             Format::Jpeg => codec::encode_jpeg(&display.to_u8(image), JPEG_QUALITY, metadata),
             Format::Hdr => codec::encode_hdr(image, metadata),
             Format::Pfm => codec::encode_pfm(image),
+            Format::Npy => codec::encode_npy(image),
             Format::Exr | Format::Bmp | Format::Tga => {
                 let mut all = vec![Layer::from_rgb("", image)];
                 all.extend(layers.iter().cloned());
@@ -118,7 +119,7 @@ fn kind_of(path: &Path) -> Result<Kind, Failure> {
     match Format::from_extension(extension) {
         Some(format) if format.can_write() => Ok(Kind::Picture(format)),
         _ => Err(Failure::usage(format!(
-            "{}: cannot tell the format from the extension; accepted are .png, .jpg, .exr, .hdr, .pfm, .luch",
+            "{}: cannot tell the format from the extension; accepted are .png, .jpg, .exr, .hdr, .pfm, .npy, .luch",
             path.display()
         ))),
     }

@@ -1,5 +1,9 @@
 //! Words of the command line as values, with messages that say what is accepted.
 
+mod bench;
+
+pub(crate) use bench::{field_of_view, kernels, levels, point, qualities, sets, thread_counts};
+
 use luch::image::tone::Curve;
 use luch::render::Goal;
 use luch::sampling::Sequence;

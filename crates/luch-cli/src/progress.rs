@@ -27,6 +27,13 @@ pub(crate) struct Start<'a> {
     pub(crate) outputs: Vec<&'a Path>,
 }
 
+/// What rendering alone cost: without reading the scene, building trees and writing files.
+pub(crate) struct Alone {
+    pub(crate) elapsed: Duration,
+    /// Of all threads; `None` where the system does not tell.
+    pub(crate) processor: Option<Duration>,
+}
+
 /// Tells progress in the style asked for.
 pub(crate) struct Reporter {
     style: ProgressStyle,
@@ -84,13 +91,15 @@ impl Reporter {
         }
     }
 
-    pub(crate) fn end(&self, end: &JobEnd, outputs: Vec<&Path>) {
+    pub(crate) fn end(&self, end: &JobEnd, alone: &Alone, outputs: Vec<&Path>) {
         match self.style {
             ProgressStyle::Bar => terminal::rewrite_line(""),
             ProgressStyle::Json => {
                 let mut object = numbers("end", &end.progress);
                 let losses = end.film.losses();
                 object["ending"] = json!(ending_name(end.ending));
+                object["render_seconds"] = json!(alone.elapsed.as_secs_f64());
+                object["processor_seconds"] = json!(alone.processor.map(|time| time.as_secs_f64()));
                 object["outputs"] = json!(names(&outputs));
                 object["saturated"] = json!(losses.saturated);
                 object["invalid"] = json!(losses.invalid);

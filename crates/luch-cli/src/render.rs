@@ -8,13 +8,14 @@ use crate::args::{ProgressStyle, RenderArgs};
 use crate::failure::{Failure, Outcome};
 use crate::interrupt::Interrupt;
 use crate::layers::NEVER;
-use crate::progress::{self, Reporter};
+use crate::processor_time;
+use crate::progress::{self, Alone, Reporter};
 use crate::terminal;
 use luch::render::{Ending, JobEnd, JobPlan, RenderJob, from_settings};
 use plan::Plan;
 use saver::Saver;
-use std::sync::Arc;
-use std::time::Duration;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 /// Time between two looks at the job: how late its end or a wish to end may be noticed.
 const LOOK: Duration = Duration::from_millis(10);
@@ -38,6 +39,9 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
 
     interrupt.work_begins();
     let snapshots = Arc::clone(&saver);
+    let saving = Arc::new(Mutex::new(Spent::default()));
+    let spent_saving = Arc::clone(&saving);
+    let before = processor_time::of_process();
     let job = RenderJob::start(JobPlan {
         world: Arc::clone(&world),
         view: Arc::clone(&view),
@@ -46,7 +50,13 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
         goal,
         threads,
         snapshot_every: args.work.every.min(NEVER),
-        on_snapshot: Box::new(move |film, _| snapshots.snapshot(film)),
+        on_snapshot: Box::new(move |film, _| {
+            let (began, before) = (Instant::now(), processor_time::of_process());
+            snapshots.snapshot(film);
+            let mut spent = spent_saving.lock().unwrap_or_else(PoisonError::into_inner);
+            let processor = processor_time::since(before, processor_time::of_process());
+            spent.add(Spent { elapsed: began.elapsed(), processor: processor.unwrap_or_default() });
+        }),
     })?;
     while !job.is_finished() {
         if interrupt.wait(LOOK) {
@@ -55,12 +65,19 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
         reporter.look(&job.progress());
     }
     let end = job.join();
+    let processor = processor_time::since(before, processor_time::of_process());
+    let saving = *saving.lock().unwrap_or_else(PoisonError::into_inner);
+    // Nothing but saving goes on while the rendering waits for a snapshot.
+    let alone = Alone {
+        elapsed: end.progress.elapsed.saturating_sub(saving.elapsed),
+        processor: processor.map(|time| time.saturating_sub(saving.processor)),
+    };
     let interrupted = end.ending == Ending::Cancelled;
 
     let troubles = saver.finish(&end.film)?;
-    reporter.end(&end, saver.paths());
+    reporter.end(&end, &alone, saver.paths());
     if reporter.tells() {
-        summarise(&end, &saver, troubles.is_empty());
+        summarise(&end, &alone, &saver, troubles.is_empty());
     }
     if !troubles.is_empty() {
         return Err(Failure::new(troubles.join("\nerror: ")));
@@ -68,8 +85,22 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
     Ok(if interrupted { Outcome::Interrupted } else { Outcome::Done })
 }
 
+/// What saving cost so far.
+#[derive(Clone, Copy, Debug, Default)]
+struct Spent {
+    elapsed: Duration,
+    processor: Duration,
+}
+
+impl Spent {
+    fn add(&mut self, more: Self) {
+        self.elapsed += more.elapsed;
+        self.processor += more.processor;
+    }
+}
+
 /// What happened, in a few lines.
-fn summarise(end: &JobEnd, saver: &Saver, saved: bool) {
+fn summarise(end: &JobEnd, alone: &Alone, saver: &Saver, saved: bool) {
     let progress = &end.progress;
     let how = match end.ending {
         Ending::Samples => "done",
@@ -80,8 +111,11 @@ fn summarise(end: &JobEnd, saver: &Saver, saved: bool) {
     let error = progress.error.map_or(String::new(), |error| {
         format!(", estimated error {} %", terminal::short(error.relative * 100.0))
     });
+    let processor = alone.processor.map_or(String::new(), |time| {
+        format!(", {} s of processor time", terminal::short(time.as_secs_f64()))
+    });
     terminal::complain(&format!(
-        "{how}: {} samples per pixel in {} s ({}samples/s){error}",
+        "{how}: {} samples per pixel in {} s ({}samples/s){processor}{error}",
         terminal::samples(progress.samples_per_pixel),
         terminal::short(progress.elapsed.as_secs_f64()),
         terminal::metric(progress.rate),

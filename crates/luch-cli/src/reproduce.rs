@@ -90,7 +90,7 @@ fn stored_light(path: &Path) -> Option<Image<Rgb>> {
         return Some(film_file::read(path).ok()?.film.to_image());
     }
     let bytes = Files::disk().read(path).ok()?;
-    let holds_light = matches!(Format::from_magic(&bytes), Some(Format::Exr | Format::Pfm));
+    let holds_light = matches!(Format::from_magic(&bytes), Some(Format::Exr | Format::Pfm | Format::Npy));
     if holds_light { codec::decode(&bytes, None).ok().map(|bitmap| bitmap.to_rgb()) } else { None }
 }
 

@@ -65,7 +65,8 @@ pub(crate) fn read(
     Ok(with_normals(mesh).0)
 }
 
-fn decode(
+/// The mesh in some bytes, checked.
+pub(crate) fn decode(
     path: &Path,
     bytes: &[u8],
     format: Format,

@@ -2,7 +2,7 @@
 
 use crate::resolve::{self, Imports};
 use crate::{Files, LoadError, Loaded, Problem};
-use crate::{bare_mesh, gltf, obj_scene};
+use crate::{bare_mesh, gltf, mitsuba, obj_scene};
 use luch_mesh::codec::Format as MeshFormat;
 use std::path::Path;
 
@@ -13,6 +13,8 @@ pub enum SceneFormat {
     Kdl,
     /// glTF 2.0, text or binary.
     Gltf,
+    /// A scene of Mitsuba (XML).
+    Mitsuba,
     /// Wavefront OBJ with its MTL files.
     Obj,
     /// A Stanford PLY mesh.
@@ -23,13 +25,14 @@ pub enum SceneFormat {
 
 impl SceneFormat {
     /// All formats.
-    pub const ALL: [Self; 5] = [Self::Kdl, Self::Gltf, Self::Obj, Self::Ply, Self::Stl];
+    pub const ALL: [Self; 6] = [Self::Kdl, Self::Gltf, Self::Mitsuba, Self::Obj, Self::Ply, Self::Stl];
 
     /// File extensions in lower case, without the dot.
     pub const fn extensions(self) -> &'static [&'static str] {
         match self {
             Self::Kdl => &["kdl"],
             Self::Gltf => &["gltf", "glb"],
+            Self::Mitsuba => &["xml"],
             Self::Obj => &["obj"],
             Self::Ply => &["ply"],
             Self::Stl => &["stl"],
@@ -50,6 +53,9 @@ impl SceneFormat {
         let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
         if start.starts_with(b"{") {
             return Some(Self::Gltf);
+        }
+        if start.starts_with(b"<?xml") || start.starts_with(b"<scene") {
+            return Some(Self::Mitsuba);
         }
         match MeshFormat::from_magic(bytes) {
             Some(MeshFormat::Ply) => Some(Self::Ply),
@@ -91,6 +97,7 @@ pub(crate) fn read(path: &Path, files: &Files, imports: &mut Imports) -> Result<
     match format {
         SceneFormat::Kdl => resolve::load(path, files, imports),
         SceneFormat::Gltf => gltf::load(path, files),
+        SceneFormat::Mitsuba => mitsuba::load(path, files, &imports.parameters()),
         SceneFormat::Obj => obj_scene::load(path, files),
         SceneFormat::Ply => bare_mesh::load(path, files, MeshFormat::Ply),
         SceneFormat::Stl => bare_mesh::load(path, files, MeshFormat::Stl),

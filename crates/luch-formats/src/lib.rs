@@ -1,6 +1,6 @@
 //! Scene, mesh and image files to values and back. The only library of luch that touches the disk.
 //!
-//! [`load`] reads a scene (luch's own KDL format, glTF, OBJ with MTL) or a bare mesh (PLY, STL) and gives back a
+//! [`load`] reads a scene (luch's own KDL format, glTF, Mitsuba's XML, OBJ with MTL) or a bare mesh (PLY, STL) and gives back a
 //! [`Scene`] that is ready to be rendered: names are resolved, degrees are radians, a camera and light are there.
 //!
 //! ```
@@ -43,7 +43,9 @@ mod images;
 mod kdl;
 mod material_values;
 mod merge;
+mod mitsuba;
 mod obj_scene;
+pub mod ray_files;
 mod resolve;
 mod scene_file;
 mod sky;
@@ -58,6 +60,7 @@ pub use write::{SaveError, replaced_file, save_image, save_mesh, write_atomicall
 
 use luch_image::tone::Tone;
 use luch_scene::Scene;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// A scene that was read, what in the file was not honoured, and what was chosen where the file says nothing.
@@ -100,6 +103,19 @@ pub fn load(path: &Path) -> Result<Loaded, LoadError> {
 /// If the file or one it needs cannot be read or understood, or describes a scene that cannot be rendered. A missing
 /// picture is no error but a warning: a neutral value takes its place.
 pub fn load_with(path: &Path, files: &Files) -> Result<Loaded, LoadError> {
-    let loaded = format::read(path, files, &mut resolve::Imports::default())?;
+    load_with_parameters(path, files, &BTreeMap::new())
+}
+
+/// Reads the scene or mesh at `path` as [`load_with`] does, with values for the parameters that a Mitsuba scene declares with
+/// `<default name="…">` or uses as `$name`. Other formats have no parameters and take no notice of them.
+///
+/// # Errors
+/// As [`load_with`], and if the scene has no parameter of a name.
+pub fn load_with_parameters(
+    path: &Path,
+    files: &Files,
+    parameters: &BTreeMap<String, String>,
+) -> Result<Loaded, LoadError> {
+    let loaded = format::read(path, files, &mut resolve::Imports::new(parameters))?;
     finish::finish(path, loaded)
 }

@@ -16,7 +16,7 @@ pub(crate) fn values(material: &mut Material) -> Values<'_> {
     match &mut material.surface {
         Surface::Absorber => {}
         Surface::Diffuse { color } => all.colors.push(color),
-        Surface::Conductor { reflectance, roughness } => {
+        Surface::Conductor { reflectance, roughness, compensated: _ } => {
             if let Reflectance::Color(color) = reflectance {
                 all.colors.push(color);
             }

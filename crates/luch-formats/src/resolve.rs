@@ -24,6 +24,20 @@ pub(crate) struct Imports {
     open: Vec<PathBuf>,
     /// Those read before, `None` if they are wrong: a file that is imported often is read once.
     known: BTreeMap<PathBuf, Option<Rc<Scene>>>,
+    /// Values for the parameters of the file that is loaded, not of those it imports.
+    parameters: BTreeMap<String, String>,
+}
+
+impl Imports {
+    /// No files yet; `parameters` are for the first.
+    pub(crate) fn new(parameters: &BTreeMap<String, String>) -> Self {
+        Self { parameters: parameters.clone(), ..Self::default() }
+    }
+
+    /// The parameters for a file that is read now.
+    pub(crate) fn parameters(&self) -> BTreeMap<String, String> {
+        if self.open.is_empty() { self.parameters.clone() } else { BTreeMap::new() }
+    }
 }
 
 /// Reads a scene in luch's own format.

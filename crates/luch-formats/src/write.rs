@@ -118,7 +118,7 @@ fn sync_folder(_: &Path) -> std::io::Result<()> {
 
 /// Writes linear light as a picture, in the format of the extension.
 ///
-/// `.exr`, `.hdr` and `.pfm` keep the light; `.png` and `.jpg` show it as `tone` says, in 8 bits.
+/// `.exr`, `.hdr`, `.pfm` and `.npy` keep the light; `.png` and `.jpg` show it as `tone` says, in 8 bits.
 ///
 /// # Errors
 /// If the extension is another, the picture is empty or too large for the format, or the disk refuses.
@@ -140,10 +140,11 @@ pub fn save_image(
         }
         Some(Format::Hdr) => image_codec::encode_hdr(image, metadata),
         Some(Format::Pfm) => image_codec::encode_pfm(image),
+        Some(Format::Npy) => image_codec::encode_npy(image),
         Some(Format::Png) => image_codec::encode_png8(&tone.to_u8(image), metadata),
         Some(Format::Jpeg) => image_codec::encode_jpeg(&tone.to_u8(image), 92, metadata),
         Some(Format::Bmp | Format::Tga) | None => {
-            let accepted = ".png, .jpg, .exr, .hdr, .pfm";
+            let accepted = ".png, .jpg, .exr, .hdr, .pfm, .npy";
             return Err(SaveError::Extension { path: path.to_owned(), accepted });
         }
     };

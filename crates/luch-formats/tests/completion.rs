@@ -127,6 +127,7 @@ fn content_tells_the_format_where_the_name_does_not() {
         (codec::ply::encode(&mesh, codec::ply::Encoding::LittleEndian), 1),
         (codec::obj::encode(&mesh, &Default::default()).into_bytes(), 1),
         (b"// a scene\nluch 1\nobject { sphere }\nobject { plane }".to_vec(), 2),
+        (b"<?xml version=\"1.0\"?><scene version=\"3.0.0\"><shape type=\"cube\"/></scene>".to_vec(), 1),
     ] {
         assert_eq!(load("thing", bytes).scene.instances.len(), instances);
     }

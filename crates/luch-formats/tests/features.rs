@@ -89,8 +89,11 @@ fn surfaces_arrive() {
     assert_eq!(surface("absorber"), Surface::Absorber);
     assert_eq!(surface("diffuse 0.8 0.1 0.2"), Surface::Diffuse { color: red.into() });
     assert_eq!(surface("diffuse \"#f00\""), Surface::Diffuse { color: Rgb::new(1.0, 0.0, 0.0).into() });
-    let conductor =
-        |reflectance, roughness: f32| Surface::Conductor { reflectance, roughness: roughness.into() };
+    let conductor = |reflectance, roughness: f32| Surface::Conductor {
+        reflectance,
+        roughness: roughness.into(),
+        compensated: true,
+    };
     for metal in Metal::ALL {
         let text = format!("conductor \"{}\" roughness=0.3", metal.name());
         assert_eq!(surface(&text), conductor(Reflectance::Metal(metal), 0.3));

@@ -35,7 +35,11 @@ fn surfaces_follow_the_table() {
         surface("Kd 0.5 0.5 0.5\nKs 0.25 0.25 0.25\nNs 30\nillum 2"),
         Surface::Phong { diffuse: gray(0.5), specular: gray(0.25), exponent: 30.0.into() }
     );
-    let mirror = Surface::Conductor { reflectance: Reflectance::Color(gray(0.9)), roughness: 0.0.into() };
+    let mirror = Surface::Conductor {
+        reflectance: Reflectance::Color(gray(0.9)),
+        roughness: 0.0.into(),
+        compensated: true,
+    };
     assert_eq!(surface("Kd 0 0 0\nKs 0.9 0.9 0.9\nillum 3"), mirror);
     assert_eq!(surface("Ks 0.9 0.9 0.9\nNs 1000\nillum 5"), mirror);
     let glass = |ior, tint| Surface::Dielectric { ior, roughness: 0.0.into(), tint: gray(tint) };

@@ -51,9 +51,14 @@ fn others_may_read_what_is_written() {
 fn pictures_are_written_in_the_format_of_the_extension() {
     let folder = tempfile::tempdir().unwrap();
     let image = Image::from_pixels(2, 1, vec![Rgb::new(0.25, 0.5, 4.0), Rgb::gray(1.0)]).unwrap();
-    for (name, is_exact) in
-        [("a.exr", true), ("a.pfm", true), ("a.hdr", false), ("a.png", false), ("a.jpg", false)]
-    {
+    for (name, is_exact) in [
+        ("a.exr", true),
+        ("a.pfm", true),
+        ("a.npy", true),
+        ("a.hdr", false),
+        ("a.png", false),
+        ("a.jpg", false),
+    ] {
         let path = folder.path().join(name);
         save_image(&path, &image, &Tone::default(), &Metadata::new()).unwrap();
         let read = codec::decode(&std::fs::read(&path).unwrap(), None).unwrap().to_rgb();
@@ -64,7 +69,7 @@ fn pictures_are_written_in_the_format_of_the_extension() {
     }
     let error =
         save_image(&folder.path().join("a.bmp"), &image, &Tone::default(), &Metadata::new()).unwrap_err();
-    assert!(error.to_string().ends_with("accepted are .png, .jpg, .exr, .hdr, .pfm"), "{error}");
+    assert!(error.to_string().ends_with("accepted are .png, .jpg, .exr, .hdr, .pfm, .npy"), "{error}");
 }
 
 #[test]

@@ -12,6 +12,7 @@
 //! | HDR | Radiance RGBE | 8-bit mantissa, shared exponent | comment lines |
 //! | EXR | flat scan lines and tiles, largest level | 32-bit float layers, exact | string attributes |
 //! | PFM | both byte orders, gray and colour | 32-bit float, exact | none |
+//! | NPY | 32- and 64-bit float, gray, colour and alpha | 32-bit float, exact | none |
 
 mod error;
 mod exr;
@@ -21,6 +22,7 @@ mod hdr;
 mod jpeg;
 mod layers;
 mod metadata;
+mod npy;
 mod pfm;
 mod plain;
 mod png;
@@ -32,6 +34,7 @@ pub use hdr::encode_hdr;
 pub use jpeg::encode_jpeg;
 pub use layers::{Layer, Layers};
 pub use metadata::Metadata;
+pub use npy::encode_npy;
 pub use pfm::encode_pfm;
 pub use png::{encode_png8, encode_png16};
 
@@ -44,7 +47,7 @@ pub const MAX_PIXELS: u64 = 1 << 28;
 ///
 /// Without a `format` it is told from the first bytes ([`Format::from_magic`]). Orientation tags, colour profiles and
 /// gamma (other than gamma 1 of PNG, which makes the numbers linear) are not applied. Infinite and NaN values of
-/// OpenEXR and PFM stay as they are.
+/// OpenEXR, PFM and NPY stay as they are.
 ///
 /// # Errors
 /// [`DecodeError`] if the format is unknown, the file is damaged, cut short or too large, or holds what is not
@@ -58,6 +61,7 @@ pub fn decode(bytes: &[u8], format: Option<Format>) -> Result<Bitmap, DecodeErro
         Format::Hdr => hdr::decode(bytes),
         Format::Exr => exr::decode(bytes),
         Format::Pfm => pfm::decode(bytes),
+        Format::Npy => npy::decode(bytes),
     }
 }
 
@@ -71,7 +75,7 @@ pub fn read_metadata(bytes: &[u8]) -> Result<Metadata, DecodeError> {
         Format::Jpeg => jpeg::read_metadata(bytes),
         Format::Hdr => hdr::read_metadata(bytes),
         Format::Exr => exr::read_metadata(bytes),
-        Format::Bmp | Format::Tga | Format::Pfm => Ok(Metadata::default()),
+        Format::Bmp | Format::Tga | Format::Pfm | Format::Npy => Ok(Metadata::default()),
     }
 }
 

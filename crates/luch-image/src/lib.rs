@@ -2,7 +2,7 @@
 //!
 //! - [`Rgb`]: linear light in Rec. 709 primaries; [`Image`]: a rectangle of pixels of any kind, top row first.
 //! - [`Bitmap`]: a picture as a file holds it (8 or 16 bits or floating point, four channels).
-//! - [`codec`]: bytes to pictures and back. It reads PNG, JPEG, BMP, TGA, Radiance HDR, OpenEXR and PFM, and never
+//! - [`codec`]: bytes to pictures and back. It reads PNG, JPEG, BMP, TGA, Radiance HDR, OpenEXR, PFM and NPY, and never
 //!   touches the disk.
 //! - [`tone`]: exposure and display curves, from scene light to numbers a screen shows.
 //! - [`compare`](mod@compare): how far two pictures are apart, in numbers and as a picture.

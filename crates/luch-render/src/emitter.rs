@@ -1,23 +1,24 @@
 //! What can be sampled for light.
 //!
-//! One lamp of the scene may become many emitters: a glowing mesh is one for each triangle. The contract of the family: `sample`
+//! One lamp of the scene may become many emitters: a glowing mesh is one for each triangle or pair of triangles. The contract of the family: `sample`
 //! draws a direction toward the emitter with a density per solid angle, `pdf` is that density for a direction that a ray found by
 //! itself, and their quotient with the radiance is the irradiance, without bias.
 
 mod ball;
 mod disc;
 mod environment;
+mod flat;
 mod point;
 mod sun;
-mod triangle;
 
 pub(crate) use ball::BallEmitter;
 pub(crate) use disc::DiscEmitter;
 pub(crate) use environment::EnvironmentEmitter;
+pub use flat::{FlatForm, FlatLamp};
 pub(crate) use point::{PointEmitter, SpotEmitter};
 pub(crate) use sun::SunEmitter;
-pub(crate) use triangle::TriangleEmitter;
 
+use crate::lights::LightBounds;
 use glam::Vec3;
 use luch_image::Rgb;
 use luch_scene::Scene;
@@ -45,23 +46,29 @@ impl EmitterSample {
     }
 }
 
-/// One thing that shines.
+/// Light from infinity.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FarLight {
+    pub(crate) radiance: Rgb,
+    /// Density with which the emitter's sampling draws the direction.
+    pub(crate) pdf: f32,
+}
+
+/// One thing that shines and is not a flat lamp.
 #[derive(Debug)]
 pub(crate) enum Emitter {
-    Triangle(TriangleEmitter),
-    Ball(BallEmitter),
-    Disc(DiscEmitter),
+    Ball(Box<BallEmitter>),
+    Disc(Box<DiscEmitter>),
     Point(PointEmitter),
     Spot(SpotEmitter),
-    Sun(SunEmitter),
-    Environment(EnvironmentEmitter),
+    Sun(Box<SunEmitter>),
+    Environment(Box<EnvironmentEmitter>),
 }
 
 impl Emitter {
     /// Draws a direction from `from` toward the emitter.
     pub(crate) fn sample(&self, scene: &Scene, from: Vec3, u: [f32; 2]) -> Option<EmitterSample> {
         match self {
-            Emitter::Triangle(emitter) => emitter.sample(scene, from, u),
             Emitter::Ball(emitter) => emitter.sample(scene, from, u),
             Emitter::Disc(emitter) => emitter.sample(scene, from, u),
             Emitter::Point(emitter) => emitter.sample(from),
@@ -74,23 +81,20 @@ impl Emitter {
     /// Density with which `sample` draws the direction from `from` to the point `to` of an emitter that has a surface.
     pub(crate) fn pdf(&self, from: Vec3, to: Vec3) -> f32 {
         match self {
-            Emitter::Triangle(emitter) => emitter.pdf(from, to),
             Emitter::Ball(emitter) => emitter.pdf(from, to),
             Emitter::Disc(emitter) => emitter.pdf(from, to),
             Emitter::Point(_) | Emitter::Spot(_) | Emitter::Sun(_) | Emitter::Environment(_) => 0.0,
         }
     }
 
-    /// Power in watts, or a guess of it: the weight with which the emitter is picked.
-    pub(crate) fn power(&self, scene: &Scene, scene_radius: f32) -> f32 {
+    /// Bounds for the choice of light; `None` if it is infinitely far.
+    pub(crate) fn bounds(&self, scene: &Scene) -> Option<LightBounds> {
         match self {
-            Emitter::Triangle(emitter) => emitter.power(scene),
-            Emitter::Ball(emitter) => emitter.power(scene),
-            Emitter::Disc(emitter) => emitter.power(scene),
-            Emitter::Point(emitter) => emitter.power(),
-            Emitter::Spot(emitter) => emitter.power(),
-            Emitter::Sun(emitter) => emitter.power(scene_radius),
-            Emitter::Environment(emitter) => emitter.power(scene_radius),
+            Emitter::Ball(emitter) => Some(emitter.bounds(scene)),
+            Emitter::Disc(emitter) => Some(emitter.bounds(scene)),
+            Emitter::Point(emitter) => Some(emitter.bounds()),
+            Emitter::Spot(emitter) => Some(emitter.bounds()),
+            Emitter::Sun(_) | Emitter::Environment(_) => None,
         }
     }
 }

@@ -14,6 +14,9 @@ use std::ops::Range;
 /// Pixels along a side of a tile.
 pub const TILE: u32 = 32;
 
+/// Pixels along a side of a bundle: the block of pixels whose samples of one index help each other.
+pub const BUNDLE: u32 = 4;
+
 /// The exponent of the step that films have unless told otherwise.
 const USUAL_EXPONENT: i8 = -36;
 
@@ -212,6 +215,38 @@ impl Film {
         image
     }
 
+    /// The mean of all pixels, and its standard error by the twin streams; `None` unless all have samples of both.
+    ///
+    /// Pixels of one bundle share part of their noise, so the streams are compared bundle by bundle.
+    pub fn mean(&self) -> Option<MeanEstimate> {
+        let (mut mean, mut variance, mut pixels) = ([0.0; 3], [0.0; 3], 0u64);
+        for tile in &self.tiles {
+            let counts = tile.done.stream_counts();
+            if counts.contains(&0) {
+                return None;
+            }
+            let across = tile.width.div_ceil(BUNDLE);
+            let mut differences = vec![[0.0; 3]; (across * tile.height.div_ceil(BUNDLE)) as usize];
+            for (i, sums) in (0..).zip(&tile.sums) {
+                let [a, b] = [0, 1].map(|stream| sums.stream_mean(stream, counts[stream], self.step));
+                let bundle = i / tile.width / BUNDLE * across + i % tile.width / BUNDLE;
+                for channel in 0..3 {
+                    mean[channel] += (a[channel] + b[channel]) / 2.0;
+                    differences[bundle as usize][channel] += (a[channel] - b[channel]) / 2.0;
+                }
+                pixels += 1;
+            }
+            for difference in differences {
+                (0..3).for_each(|channel| variance[channel] += difference[channel] * difference[channel]);
+            }
+        }
+        let pixels = pixels as f64;
+        Some(MeanEstimate {
+            mean: mean.map(|sum| sum / pixels),
+            standard_error: variance.map(|sum: f64| sum.sqrt() / pixels),
+        })
+    }
+
     /// How far the picture is from its limit, by the twin streams.
     pub fn error(&self) -> Option<ErrorEstimate> {
         let (mut variance, mut mean, mut pixels) = (0.0, 0.0, 0u64);
@@ -240,6 +275,15 @@ impl Film {
         };
         Some(ErrorEstimate { rmse: variance.sqrt(), relative })
     }
+}
+
+/// The mean of a picture and how sure it is, by channel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeanEstimate {
+    /// Mean of all pixels.
+    pub mean: [f64; 3],
+    /// Its standard error.
+    pub standard_error: [f64; 3],
 }
 
 /// The error of a picture, estimated from its two independent streams.

@@ -6,7 +6,7 @@ use std::fmt;
 use std::io;
 
 /// Raised whenever the same scene and settings would give other samples than before.
-const GENERATION: u32 = 1;
+const GENERATION: u32 = 2;
 
 /// A digest (BLAKE3) of everything that samples depend on: scene, camera, settings, and the generation of the algorithms.
 /// Films of equal fingerprints may be merged. Names and things that nobody uses count as well: it never errs to the careless side.

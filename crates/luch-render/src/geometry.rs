@@ -21,6 +21,8 @@ pub struct Geometry {
     /// For each instance the inverse transpose of its placement: it takes normals to the world and keeps outside outside.
     normal_maps: Vec<Mat3>,
     bounds: Aabb,
+    /// Whether every surface that is hit is there: nothing is decided by chance.
+    certain: bool,
 }
 
 impl Geometry {
@@ -60,15 +62,28 @@ impl Geometry {
         };
         let mut instances = vec![whole];
         instances.extend(others.iter().map(|&other| placed[other as usize]));
+        let certain = instances.iter().all(|instance| !instance.filtered);
         let tree = SceneTree::build(geometries, &instances, Quality::Balanced);
         let normal_map = |i: &Instance| Mat3::from(i.placement.matrix3).inverse().transpose();
         let bounds = tree.bounds();
-        Self { tree, joined, others, normal_maps: scene.instances.iter().map(normal_map).collect(), bounds }
+        Self {
+            tree,
+            joined,
+            others,
+            normal_maps: scene.instances.iter().map(normal_map).collect(),
+            bounds,
+            certain,
+        }
     }
 
     /// A box around everything that is bounded.
     pub fn bounds(&self) -> Aabb {
         self.bounds
+    }
+
+    /// Whether rays that differ in their random numbers alone meet the same: no surface is only partly there.
+    pub(crate) fn is_certain(&self) -> bool {
+        self.certain
     }
 
     /// Takes normals of an instance to the world.

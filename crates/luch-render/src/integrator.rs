@@ -18,9 +18,11 @@ use luch_scene::Integrator as Name;
 
 /// Finds the radiance of camera samples.
 ///
-/// What a sample returns may depend on the world and the sample, and on nothing else: not on who travels beside it in the batch.
+/// Samples come in bundles: blocks of [`BUNDLE`](crate::BUNDLE) × `BUNDLE` pixels with one index, cut at the edges of the picture. What
+/// a sample returns may depend on the world and the samples of its bundle, which are the same whoever renders it, and on nothing
+/// else: not on who travels beside it in the batch.
 pub trait Integrator: Send + Sync {
-    /// Writes the radiance of `samples[i]` to `radiance[i]`; both have the same length.
+    /// Writes the radiance of `samples[i]` to `radiance[i]`; both have the same length. Bundles are whole.
     ///
     /// # Errors
     /// [`Stopped`] if `stop` came due; `radiance` is then worthless.
@@ -36,10 +38,10 @@ pub trait Integrator: Send + Sync {
 /// The algorithm that settings name.
 pub fn from_settings(name: Name, view: &View) -> Box<dyn Integrator> {
     match name {
-        Name::Path { max_depth } => Box::new(PathTracer { max_depth }),
+        Name::Path { max_depth } => Box::new(PathTracer { max_depth, reuse: true }),
         Name::PlainPath { max_depth } => Box::new(PlainPathTracer { max_depth }),
         // Emitted light and one scattering is a path cut short.
-        Name::Direct => Box::new(PathTracer { max_depth: 1 }),
+        Name::Direct => Box::new(PathTracer { max_depth: 1, reuse: false }),
         Name::Occlusion { distance } => Box::new(Occlusion { distance }),
         Name::Inspect(property) => Box::new(Inspect::new(property, view)),
     }

@@ -17,14 +17,15 @@ pub fn bsdf_at(world: &World, point: &SurfacePoint, sampler: &Sampler, bounce: u
     match &world.scene.materials[id.index()].surface {
         Surface::Absorber | Surface::Mix { .. } => Bsdf::Absorber,
         Surface::Diffuse { color } => Bsdf::Diffuse(Diffuse::new(bounded(place.color(color)))),
-        Surface::Conductor { reflectance, roughness } => {
+        Surface::Conductor { reflectance, roughness, compensated } => {
             let fresnel = match reflectance {
                 Reflectance::Color(color) => ConductorFresnel::from_color(bounded(place.color(color))),
                 Reflectance::Metal(_) | Reflectance::Index { .. } => {
                     world.metals[id.index()].expect("a world holds the reflectance of every metal")
                 }
             };
-            Bsdf::Conductor(Conductor::new(fresnel, unit(place.scalar(roughness))))
+            let conductor = Conductor::new(fresnel, unit(place.scalar(roughness)));
+            Bsdf::Conductor(if *compensated { conductor } else { conductor.uncompensated() })
         }
         Surface::Dielectric { ior, roughness, tint } => {
             let tint = bounded(place.color(tint));

@@ -7,8 +7,9 @@ use luch_bvh::{InstanceHit, Ray};
 use luch_sampling::Frame;
 use luch_scene::{Id, Material, NormalMap, Scene, Shape, TextureUse};
 
-/// Half a unit in the last place of 1.
-const EPSILON: f32 = f32::EPSILON / 2.0;
+/// Part of the largest coordinate by which a computed position may miss the surface: the roundings that the analysis of Pharr,
+/// Jakob and Humphreys (section 6.8) counts for the chain, doubled, each half a unit in the last place of 1.
+pub(crate) const POSITION_ERROR: f32 = 32.0 * f32::EPSILON / 2.0;
 
 /// A point where a ray met a surface.
 #[derive(Clone, Copy, Debug)]
@@ -30,6 +31,8 @@ pub struct SurfacePoint<'a> {
     error: f32,
     /// How far smooth shading lifts the point off the triangle, on the outside and on the inside.
     lift: [Vec3; 2],
+    /// Whether the shading normal was tilted toward the viewer, so that others would see another frame.
+    tilted: bool,
 }
 
 impl<'a> SurfacePoint<'a> {
@@ -63,6 +66,7 @@ impl<'a> SurfacePoint<'a> {
             material: place.material_id(),
             error,
             lift: [Vec3::ZERO; 2],
+            tilted: false,
         };
         point.shade(normal_map);
         point
@@ -162,37 +166,68 @@ impl<'a> SurfacePoint<'a> {
         if cosine < LEAST && cosine < geometric {
             let tilted = self.frame.normal + self.outgoing * (side * (LEAST.min(geometric) - cosine));
             self.frame = Frame::from_normal(tilted.try_normalize().unwrap_or(self.geometric_normal));
+            self.tilted = true;
         }
     }
 
-    /// Whether light may pass along a direction without leaking through the surface: it is on the same side of the shading normal
-    /// as of the surface, or it is reflected by the smooth surface that the point is lifted onto.
-    pub fn is_honest(&self, direction: Vec3) -> bool {
-        direction.dot(self.geometric_normal) * direction.dot(self.frame.normal) > 0.0
-            || self.is_over_the_edge(direction)
+    /// Whether the frame does not depend on who looks.
+    pub(crate) fn is_seen_alike(&self) -> bool {
+        !self.tilted
     }
 
-    /// Whether a direction dips below the triangle but not below the smooth surface, on the viewer's side. From the lifted point
-    /// the mesh itself decides whether something is in the way; without that the triangles show along the shadow's edge.
-    fn is_over_the_edge(&self, direction: Vec3) -> bool {
-        let side = if self.is_front() { 1.0 } else { -1.0 };
-        direction.dot(self.geometric_normal) * side <= 0.0
-            && direction.dot(self.frame.normal) * side > 0.0
-            && self.lift[usize::from(!self.is_front())] != Vec3::ZERO
+    /// What is needed to leave from here.
+    pub fn exit(&self) -> Exit {
+        let front = self.is_front();
+        let side = if front { 1.0 } else { -1.0 };
+        let lift = self.lift[usize::from(!front)];
+        // The next test's own rounding is along the ray, so the largest extent counts, not that along the normal alone.
+        let off = self.geometric_normal * (side * self.error);
+        Exit {
+            position: self.position,
+            geometric_normal: self.geometric_normal * side,
+            normal: self.frame.normal * side,
+            // Smooth shading is lifted only where light is reflected: refracted rays start on the triangle.
+            near: self.position + lift + off,
+            far: self.position - off,
+            lifted: lift != Vec3::ZERO,
+        }
+    }
+}
+
+/// How rays leave a point of a surface, and arrive at it, without meeting that surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Exit {
+    /// In the world.
+    pub position: Vec3,
+    /// Unit normal of the triangle or shape, on the side of the viewer.
+    pub geometric_normal: Vec3,
+    /// Normal of the shading frame, on the same side.
+    pub normal: Vec3,
+    /// Where rays on the viewer's side start.
+    pub near: Vec3,
+    /// Where rays on the other side start.
+    pub far: Vec3,
+    /// Whether smooth shading lifts the point off the triangle on the viewer's side.
+    pub lifted: bool,
+}
+
+impl Exit {
+    /// Whether light may pass along a direction without leaking through the surface: it is on the same side of the shading
+    /// normal as of the surface, or it is reflected by the smooth surface that the point is lifted onto.
+    ///
+    /// The second are directions that dip below the triangle but not below the smooth surface, on the viewer's side. From the
+    /// lifted point the mesh itself decides whether something is in the way; without that the triangles show along the
+    /// shadow's edge.
+    pub fn is_honest(&self, direction: Vec3) -> bool {
+        direction.dot(self.geometric_normal) * direction.dot(self.normal) > 0.0
+            || (self.lifted && direction.dot(self.normal) > 0.0)
     }
 
     /// Where a ray along `direction` may start without meeting the surface it leaves.
-    fn start_toward(&self, direction: Vec3) -> Vec3 {
-        let viewer_outside = self.is_front();
-        let outside = match self.is_over_the_edge(direction) {
-            true => viewer_outside,
-            false => direction.dot(self.geometric_normal) > 0.0,
-        };
-        let normal = if outside { self.geometric_normal } else { -self.geometric_normal };
-        // Smooth shading is lifted only where light is reflected: refracted rays start on the triangle.
-        let lift = if outside == viewer_outside { self.lift[usize::from(!outside)] } else { Vec3::ZERO };
-        // The next test's own rounding is along the ray, so the largest extent counts, not that along the normal alone.
-        self.position + lift + normal * self.error
+    pub(crate) fn start_toward(&self, direction: Vec3) -> Vec3 {
+        let reflected =
+            direction.dot(self.geometric_normal) > 0.0 || (self.lifted && direction.dot(self.normal) > 0.0);
+        if reflected { self.near } else { self.far }
     }
 
     /// The ray that leaves along `direction`.
@@ -202,18 +237,21 @@ impl<'a> SurfacePoint<'a> {
 
     /// The ray to `target`, ending just before it. A target on a surface must be given on the near side of that.
     pub fn ray_to(&self, target: Vec3) -> Ray {
-        /// Leaves room for the rounding of the segment itself.
-        const BEFORE: f32 = 1.0 - 4.0 * f32::EPSILON;
-        let start = self.start_toward(target - self.position);
-        Ray { t_max: BEFORE, ..Ray::segment(start, target) }
+        segment_before(self.start_toward(target - self.position), target)
     }
+}
+
+/// The ray from `start` that ends just before `target`.
+#[inline(always)]
+pub(crate) fn segment_before(start: Vec3, target: Vec3) -> Ray {
+    /// Leaves room for the rounding of the segment itself.
+    const BEFORE: f32 = 1.0 - 4.0 * f32::EPSILON;
+    Ray { t_max: BEFORE, ..Ray::segment(start, target) }
 }
 
 /// How far the computed position may be from the surface, along any axis: roundings of the place in the shape, of the placement,
 /// and of the way back to the shape's coordinates when the next ray is tested.
 fn position_error(place: &Place, ray: &Ray, hit: &InstanceHit) -> f32 {
-    /// Roundings that the analysis of Pharr, Jakob and Humphreys (section 6.8) counts for the chain, doubled.
-    const ROUNDINGS: f32 = 32.0;
     let m = &place.instance.placement.matrix3;
     let (size, far) = match place.shape {
         Shape::Mesh(mesh) => {
@@ -230,5 +268,5 @@ fn position_error(place: &Place, ray: &Ray, hit: &InstanceHit) -> f32 {
     let y = Vec3::from(m.y_axis).abs() * size.y;
     let z = Vec3::from(m.z_axis).abs() * size.z;
     let translation = Vec3::from(place.instance.placement.translation).abs();
-    (x + y + z + translation + far).max_element() * (ROUNDINGS * EPSILON)
+    (x + y + z + translation + far).max_element() * POSITION_ERROR
 }

@@ -1,5 +1,6 @@
 //! How a pixel and an index become a ray: camera, size, filter, sequence and seed.
 
+use crate::film::BUNDLE;
 use crate::filter::FilterSampler;
 use crate::purpose;
 use glam::Vec2;
@@ -29,6 +30,11 @@ pub struct CameraSample {
     pub ray: Ray,
     /// The numbers of this sample.
     pub sampler: Sampler,
+    /// The numbers of this sample where its bundle works together: points of one sequence that all of the bundle share, so that
+    /// together they are as even as the samples of one pixel.
+    pub together: Sampler,
+    /// Samples that follow one another with the same number are a bundle: the pixels of a small block, with one index.
+    pub bundle: u32,
 }
 
 impl View {
@@ -71,7 +77,37 @@ impl View {
         let column = pixel[0] as f32 + 0.5 + self.filter.offset(x);
         let row = pixel[1] as f32 + 0.5 + self.filter.offset(y);
         let ray = self.ray(Vec2::new(column, row), [lens_u, lens_v]);
-        CameraSample { ray, sampler }
+        CameraSample { ray, sampler, together: sampler, bundle: 0 }
+    }
+
+    /// Sample `index` of all pixels of the bundle that `pixel` belongs to, row by row.
+    pub fn bundle(&self, pixel: [u32; 2], index: u64) -> Vec<CameraSample> {
+        let corner = pixel.map(|place| place - place % BUNDLE);
+        let end = [(corner[0] + BUNDLE).min(self.width), (corner[1] + BUNDLE).min(self.height)];
+        let size = (end[0] - corner[0]) * (end[1] - corner[1]);
+        let pixels = (corner[1]..end[1]).flat_map(|y| (corner[0]..end[0]).map(move |x| [x, y]));
+        (0..)
+            .zip(pixels)
+            .map(|(lane, pixel)| self.start_bundled(pixel, index, 0, corner, [lane, size]))
+            .collect()
+    }
+
+    /// Sample `index` of a pixel that is number `lane` of `size` in the bundle of that number; `corner` is the first pixel of
+    /// the bundle.
+    pub fn start_bundled(
+        &self,
+        pixel: [u32; 2],
+        index: u64,
+        bundle: u32,
+        corner: [u32; 2],
+        [lane, size]: [u32; 2],
+    ) -> CameraSample {
+        /// Sets the sequences of bundles apart from those of pixels.
+        const BUNDLES: u64 = 0x6275_6e64_6c65;
+        // The stream stays the sample's own: its lowest bit.
+        let within = (index >> 1).wrapping_mul(u64::from(size)).wrapping_add(u64::from(lane));
+        let together = Sampler::at(self.sequence, self.seed ^ BUNDLES, corner, (within << 1) | (index & 1));
+        CameraSample { together, bundle, ..self.start(pixel, index) }
     }
 
     /// The ray through a place of the picture, in pixels from its upper left corner; `lens` in the unit square.

@@ -3,6 +3,8 @@
 //! Rays of a wave are traced as batches, which is what the hardware wants. Who travels beside whom never changes what a path computes:
 //! each keeps its own numbers, and its sums are added in the order of its own bounces.
 
+use crate::plain::PlainHit;
+use crate::reuse::{Reuse, Standpoint};
 use crate::view::CameraSample;
 use crate::world::World;
 use crate::{opacity_key, purpose};
@@ -10,6 +12,7 @@ use glam::Vec3;
 use luch_bvh::{Coherence, InstanceHit, Ray};
 use luch_image::Rgb;
 use luch_sampling::Sampler;
+use std::cell::Cell;
 
 /// A path on its way.
 #[derive(Clone, Copy, Debug)]
@@ -18,28 +21,64 @@ pub(crate) struct Path {
     pub(crate) ray: Ray,
     /// The random numbers of its sample.
     pub(crate) sampler: Sampler,
+    /// The numbers to go on with where its bundle works together.
+    pub(crate) together: Sampler,
     /// What light at its end is multiplied with.
     pub(crate) throughput: Rgb,
     /// The part of the throughput that is only radiance scaled by refraction.
     pub(crate) radiance_scale: f32,
-    /// Light gathered so far and not yet handed over.
-    pub(crate) radiance: Rgb,
     /// Scatterings so far.
     pub(crate) depth: u32,
+    /// How far it is in the part that its bundle takes together.
+    pub(crate) leg: Leg,
+    /// The direction it left its first diffuse point in.
+    pub(crate) sent: Vec3,
+    /// What the throughput was before it was set back to one for the others.
+    pub(crate) carried: Rgb,
     /// Where it scattered last; `None` if it comes from the camera.
     pub(crate) origin: Option<Origin>,
     /// Its place in the batch.
-    sample: u32,
+    pub(crate) sample: u32,
+}
+
+/// Parts of a path, by what others have to do with them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Leg {
+    /// From the camera over mirrors and glass: the pixel's own.
+    Seen,
+    /// From the first diffuse point on, over so many mirrors and glass surfaces.
+    Sent {
+        /// Whether it met light there; the bundle takes care of that.
+        mirrors: u32,
+        lit: bool,
+    },
+    /// Past a second diffuse point: what it finds belongs to all.
+    Shared,
+    /// Nobody else's business.
+    Own,
 }
 
 /// Where and how a path scattered.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Origin {
     pub(crate) position: Vec3,
+    /// On the side that receives light; zero where light of all sides counts.
+    pub(crate) normal: Vec3,
+    /// Whether direct light was sampled by the whole bundle there.
+    pub(crate) together: bool,
     /// Density of the direction taken, per solid angle.
     pub(crate) pdf: f32,
     /// True if no other strategy could have taken it.
     pub(crate) specular: bool,
+}
+
+/// A path at a plain surface.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Arrival {
+    /// Its place in the wave.
+    pub(crate) path: usize,
+    pub(crate) hit: InstanceHit,
+    pub(crate) triangle: PlainHit,
 }
 
 /// Rays to lights, and what they carry if nothing stands in the way.
@@ -47,59 +86,103 @@ pub(crate) struct Origin {
 pub(crate) struct Shadows {
     rays: Vec<Ray>,
     carried: Vec<Carried>,
-    current: Option<(u32, Sampler, u32)>,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Carried {
     light: Rgb,
     sample: u32,
+    shared: bool,
     sampler: Sampler,
     depth: u32,
 }
 
-impl Shadows {
-    /// Asks whether `ray` is free, for the path that is being shaded.
-    pub(crate) fn push(&mut self, ray: Ray, light: Rgb) {
-        if let Some((sample, sampler, depth)) = self.current {
-            self.rays.push(ray);
-            self.carried.push(Carried { light, sample, sampler, depth });
+/// Where light goes that paths find.
+pub(crate) struct Found<'a> {
+    /// Points whose direct light the bundle samples together.
+    pub(crate) standpoints: &'a mut Vec<Standpoint>,
+    radiance: &'a mut [Rgb],
+    shadows: &'a mut Shadows,
+    pub(crate) reuse: &'a mut Reuse,
+}
+
+impl Found<'_> {
+    /// Light that the path came upon.
+    pub(crate) fn add(&mut self, path: &Path, light: Rgb) {
+        if path.leg == Leg::Shared {
+            self.reuse.add(path.sample, light);
+        } else {
+            self.radiance[path.sample as usize] += light;
         }
+    }
+
+    /// Light that comes along `ray`, if that is free.
+    pub(crate) fn ask(&mut self, path: &Path, ray: Ray, light: Rgb) {
+        let Path { sample, sampler, depth, .. } = *path;
+        let shared = path.leg == Leg::Shared;
+        self.shadows.rays.push(ray);
+        self.shadows.carried.push(Carried { light, sample, shared, sampler, depth });
     }
 }
 
+thread_local! {
+    /// The memory of this thread's last wave: fresh memory would have to be cleared by the system, page by page.
+    static SPARE: Cell<Option<Wave>> = const { Cell::new(None) };
+}
+
 /// Paths that take their bounces together.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Wave {
     paths: Vec<Path>,
     rays: Vec<Ray>,
     hits: Vec<Option<InstanceHit>>,
     shadows: Shadows,
     occluded: Vec<bool>,
+    arrivals: Vec<Arrival>,
+    alive: Vec<bool>,
+    standpoints: Vec<Standpoint>,
+    /// By sample.
+    samplers: Vec<Sampler>,
+    pub(crate) reuse: Reuse,
 }
 
+/// Paths that are shaded side by side.
+pub(crate) const SIDE_BY_SIDE: usize = 16;
+
 impl Wave {
-    /// One path for each camera sample.
-    pub(crate) fn start(samples: &[CameraSample]) -> Self {
+    /// One path for each camera sample, whose radiance is set to nothing.
+    pub(crate) fn start(samples: &[CameraSample], radiance: &mut [Rgb]) -> Self {
+        radiance.fill(Rgb::BLACK);
         let path = |(i, sample): (usize, &CameraSample)| Path {
             ray: sample.ray,
             sampler: sample.sampler,
+            together: sample.together,
             throughput: Rgb::WHITE,
             radiance_scale: 1.0,
-            radiance: Rgb::BLACK,
             depth: 0,
+            leg: Leg::Seen,
+            sent: Vec3::ZERO,
+            carried: Rgb::WHITE,
             origin: None,
             sample: i as u32,
         };
-        let paths: Vec<Path> = samples.iter().enumerate().map(path).collect();
-        let count = paths.len();
-        Self {
-            paths,
-            rays: Vec::with_capacity(count),
-            hits: vec![None; count],
-            shadows: Shadows::default(),
-            occluded: Vec::new(),
-        }
+        let mut wave = SPARE.take().unwrap_or_default();
+        wave.paths.clear();
+        wave.paths.extend(samples.iter().enumerate().map(path));
+        wave.hits.clear();
+        wave.hits.resize(samples.len(), None);
+        wave.samplers.clear();
+        wave.samplers.extend(samples.iter().map(|sample| sample.sampler));
+        wave.shadows.rays.clear();
+        wave.shadows.carried.clear();
+        wave.standpoints.clear();
+        wave.reuse.start(samples.iter().map(|sample| sample.bundle));
+        wave
+    }
+
+    /// Leaves the memory to the thread's next wave.
+    pub(crate) fn end(self) {
+        SPARE.set(Some(self));
     }
 
     /// True if every path has ended.
@@ -121,41 +204,64 @@ impl Wave {
         world.geometry.nearest_hits(&world.scene, &self.rays, hits, coherence, key);
     }
 
-    /// Lets every path deal with what it met, hands over the light it gathered, and keeps those that go on.
+    /// Lets every path deal with what it met and keeps those that go on.
     ///
-    /// `radiance` receives by sample; the first light of a sample replaces what was there.
+    /// `single` deals with one path, `plain` with up to sixteen that met plain surfaces; both tell who goes on.
     pub(crate) fn shade(
         &mut self,
+        world: &World,
         radiance: &mut [Rgb],
-        mut go_on: impl FnMut(&mut Path, Option<InstanceHit>, &mut Shadows) -> bool,
+        mut single: impl FnMut(&mut Path, Option<InstanceHit>, &mut Found) -> bool,
+        mut plain: impl FnMut(&mut [Path], &[Arrival], &mut Found, &mut [bool]),
     ) {
+        let Self { paths, hits, shadows, reuse, arrivals, alive, standpoints, .. } = self;
+        let mut found = Found { standpoints, radiance, shadows, reuse };
+        arrivals.clear();
+        alive.clear();
+        for (i, (path, hit)) in paths.iter_mut().zip(&*hits).enumerate() {
+            let triangle = hit.as_ref().and_then(|hit| Some((hit, world.plain.hit(&world.scene, hit)?)));
+            alive.push(match triangle {
+                None => single(path, *hit, &mut found),
+                Some((hit, triangle)) => {
+                    arrivals.push(Arrival { path: i, hit: *hit, triangle });
+                    false
+                }
+            });
+        }
+        for arrivals in arrivals.chunks(SIDE_BY_SIDE) {
+            plain(paths, arrivals, &mut found, alive);
+        }
         let mut kept = 0;
-        for i in 0..self.paths.len() {
-            let mut path = self.paths[i];
-            self.shadows.current = Some((path.sample, path.sampler, path.depth));
-            let first = path.origin.is_none();
-            let alive = go_on(&mut path, self.hits[i], &mut self.shadows);
-            let sum = &mut radiance[path.sample as usize];
-            *sum = if first { path.radiance } else { *sum + path.radiance };
-            path.radiance = Rgb::BLACK;
-            if alive {
-                self.paths[kept] = path;
+        for i in 0..paths.len() {
+            if alive[i] {
+                paths[kept] = paths[i];
                 kept += 1;
             }
         }
-        self.paths.truncate(kept);
+        paths.truncate(kept);
     }
 
     /// Adds the light of every shadow ray that is free.
     pub(crate) fn connect(&mut self, world: &World, radiance: &mut [Rgb]) {
-        let Shadows { rays, carried, .. } = &mut self.shadows;
+        let Shadows { rays, carried } = &mut self.shadows;
+        let paths = &self.samplers;
+        self.reuse.light(world, &mut self.standpoints, |sample, ray, light| {
+            rays.push(ray);
+            let sampler = paths[sample as usize];
+            carried.push(Carried { light, sample, shared: false, sampler, depth: 0 });
+        });
+        self.standpoints.clear();
         self.occluded.clear();
         self.occluded.resize(rays.len(), false);
         let key = |i: usize| opacity_key(&carried[i].sampler, purpose::light_opacity(carried[i].depth));
         world.geometry.occluded(&world.scene, rays, &mut self.occluded, Coherence::Incoherent, key);
         for (carried, occluded) in carried.iter().zip(&self.occluded) {
             if !occluded {
-                radiance[carried.sample as usize] += carried.light;
+                if carried.shared {
+                    self.reuse.add(carried.sample, carried.light);
+                } else {
+                    radiance[carried.sample as usize] += carried.light;
+                }
             }
         }
         rays.clear();

@@ -4,6 +4,7 @@ use crate::bsdf::ConductorFresnel;
 use crate::geometry::Geometry;
 use crate::lights::Lights;
 use crate::material::metals;
+use crate::plain::Plain;
 use luch_scene::Scene;
 use std::sync::Arc;
 
@@ -18,6 +19,8 @@ pub struct World {
     pub lights: Lights,
     /// For each material the reflectance of its metal.
     pub(crate) metals: Vec<Option<ConductorFresnel>>,
+    /// What can be shaded side by side.
+    pub(crate) plain: Plain,
 }
 
 impl World {
@@ -32,9 +35,10 @@ impl World {
             return Err(UnsoundScene { problems });
         }
         let geometry = Geometry::build(&scene);
-        let lights = Lights::build(&scene, geometry.bounds());
+        let lights = Lights::build(&scene);
         let metals = metals(&scene);
-        Ok(Self { scene, geometry, lights, metals })
+        let plain = Plain::new(&scene);
+        Ok(Self { scene, geometry, lights, metals, plain })
     }
 }
 

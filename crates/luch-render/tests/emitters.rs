@@ -7,7 +7,7 @@ use luch_mesh::TriangleMesh;
 use luch_render::{SurfacePoint, World, emitted};
 use luch_sampling::check::sidak;
 use luch_sampling::warp::{Cone, sphere, sphere_pdf};
-use luch_sampling::{Domain, Estimate, Frame, Sampler, Sequence};
+use luch_sampling::{Domain, Estimate, Frame, Sampler, Sequence, mis};
 use luch_scene::{Camera, Emission, Environment, Id, Light, Material, Scene, Shape, Surface};
 use std::f32::consts::PI;
 
@@ -24,6 +24,19 @@ struct Case {
     window: Option<(Vec3, f32)>,
     /// Irradiance on surfaces with these normals.
     known: Vec<(Vec3, f64)>,
+    /// How much of the light is left to light sampling.
+    sampled: Sampled,
+}
+
+/// How much of its light an emitter leaves to light sampling.
+#[derive(Clone, Copy, PartialEq)]
+enum Sampled {
+    /// Light sampling alone gives the irradiance.
+    All,
+    /// It gives it together with directions that are drawn another way.
+    Some,
+    /// It draws nothing.
+    Nothing,
 }
 
 fn glowing(two_sided: bool) -> Material {
@@ -53,32 +66,57 @@ fn under(environment: impl FnOnce(&mut Scene) -> Environment) -> World {
 }
 
 fn case(name: &'static str, world: World, from: Vec3) -> Case {
-    Case { name, world, from, window: None, known: Vec::new() }
+    Case { name, world, from, window: None, known: Vec::new(), sampled: Sampled::All }
 }
 
-/// The triangle's vector irradiance: half the sum over edges of angle times unit normal (Lambert), for radiance 2.
-fn lambert(from: Vec3, corners: [Vec3; 3], normal: Vec3) -> f64 {
-    let toward = corners.map(|c| (c - from).as_dvec3().normalize());
+/// A polygon's vector irradiance: half the sum over edges of angle times unit normal (Lambert), for radiance 2.
+fn lambert(from: Vec3, corners: &[Vec3], normal: Vec3) -> f64 {
+    let toward: Vec<_> = corners.iter().map(|&c| (c - from).as_dvec3().normalize()).collect();
     let edge = |i: usize| {
-        let (a, b) = (toward[i], toward[(i + 1) % 3]);
+        let (a, b) = (toward[i], toward[(i + 1) % toward.len()]);
         let across = a.cross(b);
         across.normalize() * libm::atan2(across.length(), a.dot(b))
     };
-    (edge(0) + edge(1) + edge(2)).dot(normal.as_dvec3()).abs()
+    (0..toward.len()).map(edge).sum::<glam::DVec3>().dot(normal.as_dvec3()).abs()
+}
+
+/// A flat lamp with these corners.
+fn polygon(name: &'static str, shape: Shape, corners: &[Vec3], from: Vec3, two_sided: bool) -> Case {
+    let axis = (corners.iter().sum::<Vec3>() / corners.len() as f32 - from).normalize();
+    let half_angle = corners.iter().map(|&c| axis.angle_between(c - from)).fold(0.0, f32::max) * 1.05;
+    // Wholly above the horizon of a surface that faces it.
+    let known = if half_angle < 1.4 { vec![(axis, lambert(from, corners, axis))] } else { vec![] };
+    let world = alone(shape, two_sided, Affine3A::IDENTITY);
+    assert_eq!(world.lights.count(), 1, "{name}");
+    Case { window: Some((axis, half_angle)), known, ..case(name, world, from) }
+}
+
+/// Two triangles that are one lamp.
+fn quads() -> Vec<Case> {
+    let corner = Vec3::new(-0.5, 1.0, -0.4);
+    let placed = |name, edges: [Vec3; 2], from: Vec3, two_sided| {
+        let corners = [corner, corner + edges[0], corner + edges[0] + edges[1], corner + edges[1]];
+        let shape = Shape::Mesh(TriangleMesh::new(corners.to_vec(), vec![[0, 1, 2], [2, 3, 0]]));
+        polygon(name, shape, &corners, from, two_sided)
+    };
+    let right = [Vec3::new(1.0, 0.25, 0.0), Vec3::new(0.0, 0.0, 0.75)];
+    let skew = [Vec3::new(1.0, 0.25, 0.5), Vec3::new(0.25, 0.0, 0.75)];
+    let long = [Vec3::new(4.0, 0.0, 0.0), Vec3::new(0.0, 0.0, 0.5)];
+    vec![
+        placed("rectangle", right, Vec3::new(0.1, 0.0, 0.2), false),
+        placed("rectangle, very near", right, Vec3::new(-0.2, 0.95, 0.05), false),
+        placed("rectangle, far", right, Vec3::new(3.0, -12.0, 5.0), false),
+        placed("rectangle, from behind its two sides", right, Vec3::new(0.2, 2.2, 0.1), true),
+        placed("rectangle, long", long, Vec3::new(1.0, -1.0, 0.1), false),
+        placed("parallelogram", skew, Vec3::new(0.1, 0.0, 0.2), false),
+        placed("parallelogram, far", skew, Vec3::new(3.0, -12.0, 5.0), false),
+    ]
 }
 
 fn triangles() -> Vec<Case> {
     let corners = [Vec3::new(-0.5, 1.0, -0.4), Vec3::new(0.7, 1.1, -0.3), Vec3::new(-0.1, 0.9, 0.8)];
     let shape = || Shape::Mesh(TriangleMesh::new(corners.to_vec(), vec![[0, 1, 2]]));
-    let center = (corners[0] + corners[1] + corners[2]) / 3.0;
-    let placed = |name, from: Vec3, two_sided| {
-        let axis = (center - from).normalize();
-        let half_angle = corners.map(|c| axis.angle_between(c - from)).into_iter().fold(0.0, f32::max) * 1.05;
-        // Wholly above the horizon of a surface that faces it.
-        let known = if half_angle < 1.4 { vec![(axis, lambert(from, corners, axis))] } else { vec![] };
-        let world = alone(shape(), two_sided, Affine3A::IDENTITY);
-        Case { window: Some((axis, half_angle)), known, ..case(name, world, from) }
-    };
+    let placed = |name, from, two_sided| polygon(name, shape(), &corners, from, two_sided);
     vec![
         placed("triangle", Vec3::new(0.1, 0.0, 0.2), false),
         placed("triangle, very near", Vec3::new(0.05, 0.95, 0.05), false),
@@ -154,9 +192,13 @@ fn distant() -> Vec<Case> {
     });
     let known = vec![(Vec3::Y, f64::from(2.0 * PI)), (Vec3::new(0.6, 0.0, -0.8), f64::from(2.0 * PI))];
     let mut cases = vec![
-        Case { known: known.clone(), ..case("constant sky", constant, Vec3::ZERO) },
-        Case { known, ..case("even picture", even, Vec3::ZERO) },
-        case("hot picture", under(hot_sky), Vec3::ZERO),
+        Case {
+            known: known.clone(),
+            sampled: Sampled::Nothing,
+            ..case("constant sky", constant, Vec3::ZERO)
+        },
+        Case { known, sampled: Sampled::Nothing, ..case("even picture", even, Vec3::ZERO) },
+        Case { sampled: Sampled::Some, ..case("hot picture", under(hot_sky), Vec3::ZERO) },
     ];
     for (name, angular_radius) in [("sun", 0.004_65), ("large sun", 0.3), ("tiny sun", 5e-4)] {
         let mut scene = Scene::default();
@@ -170,7 +212,7 @@ fn distant() -> Vec<Case> {
 }
 
 fn cases() -> Vec<Case> {
-    [triangles(), balls(), discs(), distant()].into_iter().flatten().collect()
+    [triangles(), quads(), balls(), discs(), distant()].into_iter().flatten().collect()
 }
 
 /// What a ray finds by itself: light and the density of light sampling for it.
@@ -185,12 +227,18 @@ fn find(case: &Case, direction: Vec3) -> Found {
     match geometry.nearest_hit(scene, &ray, 0) {
         Some(hit) => {
             let point = SurfacePoint::new(scene, geometry, &ray, hit);
-            Found { radiance: emitted(&point).r.into(), pdf: lights.pdf_of_hit(case.from, &point).into() }
+            Found {
+                radiance: emitted(&point).r.into(),
+                pdf: lights.pdf_of_hit(case.from, Vec3::ZERO, &point).into(),
+            }
         }
-        None => lights.beyond(scene, direction).fold(Found { radiance: 0.0, pdf: 0.0 }, |sum, light| Found {
-            radiance: sum.radiance + f64::from(light.radiance.r),
-            pdf: sum.pdf + f64::from(light.pdf),
-        }),
+        None => {
+            let found = lights.beyond(scene, case.from, Vec3::ZERO, direction);
+            found.fold(Found { radiance: 0.0, pdf: 0.0 }, |sum, light| Found {
+                radiance: sum.radiance + f64::from(light.radiance.r),
+                pdf: sum.pdf + f64::from(light.pdf),
+            })
+        }
     }
 }
 
@@ -228,7 +276,9 @@ fn drawn_directions_are_of_unit_length_lead_to_the_light_and_have_the_density_th
         let (mut drawn, mut off) = (0, 0);
         for i in 0..20_000 {
             let [u, v, choice, _] = Sampler::at(Sequence::Independent, 3, [0, 0], i).group(Domain::new(0, 0));
-            let Some(sample) = lights.sample(scene, case.from, f64::from(choice), [u, v]) else { continue };
+            let Some(sample) = lights.sample(scene, case.from, Vec3::ZERO, f64::from(choice), [u, v]) else {
+                continue;
+            };
             drawn += 1;
             assert!((sample.incoming.length() - 1.0).abs() < 1e-5, "{}", case.name);
             assert!(!sample.delta && sample.pdf > 0.0, "{}", case.name);
@@ -256,7 +306,10 @@ fn drawn_directions_are_of_unit_length_lead_to_the_light_and_have_the_density_th
             };
             off += u32::from(!nearby.into_iter().any(agrees));
         }
-        assert!(drawn > 10_000, "{}: only {drawn} were drawn", case.name);
+        match case.sampled {
+            Sampled::Nothing => assert_eq!(drawn, 0, "{}", case.name),
+            _ => assert!(drawn > 10_000, "{}: only {drawn} were drawn", case.name),
+        }
         assert!(off * 2000 <= drawn, "{}: {off} of {drawn} disagree", case.name);
     }
 }
@@ -265,12 +318,12 @@ fn drawn_directions_are_of_unit_length_lead_to_the_light_and_have_the_density_th
 fn densities_integrate_to_one() {
     for case in cases() {
         let total = integral(&case, 5, |direction| find(&case, direction).pdf);
-        within(&total, 1.0, case.name);
+        within(&total, if case.sampled == Sampled::Nothing { 0.0 } else { 1.0 }, case.name);
     }
 }
 
 #[test]
-fn light_sampling_gives_the_irradiance_of_plain_sampling_and_of_the_formula() {
+fn sampling_gives_the_irradiance_of_plain_sampling_and_of_the_formula() {
     for case in cases() {
         let World { scene, lights, .. } = &case.world;
         let normals = case.window.map_or([Vec3::Y, Vec3::new(0.6, 0.0, -0.8)], |(axis, _)| {
@@ -278,10 +331,22 @@ fn light_sampling_gives_the_irradiance_of_plain_sampling_and_of_the_formula() {
         });
         let cosine = |direction: Vec3, normal: Vec3| f64::from(direction.dot(normal).max(0.0));
         let by_light = |normal: Vec3| {
+            // What light sampling leaves out, directions drawn evenly find.
+            let alone = case.sampled == Sampled::All;
+            let weight = |pdf: f32, other: f32| if alone { 1.0 } else { f64::from(mis::power(pdf, other)) };
             mean(6, |[u, v, choice, _]| {
-                lights.sample(scene, case.from, f64::from(choice), [u, v]).map_or(0.0, |sample| {
-                    f64::from(sample.radiance.r) * cosine(sample.incoming, normal) / f64::from(sample.pdf)
-                })
+                let drawn = lights.sample(scene, case.from, Vec3::ZERO, f64::from(choice), [u, v]);
+                let drawn = drawn.map_or(0.0, |sample| {
+                    let arriving = f64::from(sample.radiance.r) * cosine(sample.incoming, normal);
+                    arriving / f64::from(sample.pdf) * weight(sample.pdf, sphere_pdf())
+                });
+                if alone {
+                    return drawn;
+                }
+                let direction = sphere([u, v]);
+                let Found { radiance, pdf } = find(&case, direction);
+                let arriving = radiance * cosine(direction, normal) / f64::from(sphere_pdf());
+                drawn + arriving * weight(sphere_pdf(), pdf as f32)
             })
         };
         for normal in normals {
@@ -329,7 +394,7 @@ fn histograms_of_drawn_directions_follow_the_density() {
             for i in 0..SAMPLES {
                 let [u, v, choice, _] =
                     Sampler::at(Sequence::Sobol, 8, [pixel, 0], i).group(Domain::new(0, 0));
-                if let Some(sample) = lights.sample(scene, case.from, f64::from(choice), [u, v]) {
+                if let Some(sample) = lights.sample(scene, case.from, Vec3::ZERO, f64::from(choice), [u, v]) {
                     counts[cell(sample.incoming)] += 1.0 / SAMPLES as f64;
                 }
                 let [u, v, ..] = Sampler::at(Sequence::Sobol, 9, [pixel, 0], i).group(Domain::new(0, 0));
@@ -362,45 +427,6 @@ fn histograms_of_drawn_directions_follow_the_density() {
 }
 
 #[test]
-fn emitters_are_picked_by_power_and_black_ones_never() {
-    let mut scene = Scene::default();
-    let shape = scene.add_shape(Shape::Sphere { radius: 1.0 });
-    // Far apart, so that each is seen alone.
-    for (i, radiance) in [1.0, 0.0, 3.0, 4.0].into_iter().enumerate() {
-        let material = scene.add_material(Material::emitter(Rgb::gray(radiance)));
-        scene.add_instance(shape, material, Affine3A::from_translation(Vec3::X * 10.0 * i as f32));
-    }
-    let world = built(scene);
-    let from = Vec3::new(14.0, 8.0, 3.0);
-    let mut counts = [0_u32; 4];
-    for i in 0..8192 {
-        let [u, v, choice, _] = Sampler::at(Sequence::Sobol, 1, [0, 0], 2 * i).group(Domain::new(0, 0));
-        let sample =
-            world.lights.sample(&world.scene, from, f64::from(choice), [u, v]).expect("every choice shines");
-        let place = sample.target.unwrap().x / 10.0;
-        counts[(place + 0.5) as usize] += 1;
-    }
-    // A stratified choice is exact up to one sample at each border.
-    for (count, expected) in counts.into_iter().zip([1024_i64, 0, 3072, 4096]) {
-        assert!((i64::from(count) - expected).abs() <= 2, "{counts:?}");
-    }
-    // The chances of all, read from the densities of hits: pdf times solid angle is the chance of the lamp.
-    let chance = |i: usize| {
-        let center = Vec3::X * 10.0 * i as f32;
-        let ray = Ray::new(from, (center - from).normalize());
-        let hit = world.geometry.nearest_hit(&world.scene, &ray, 0).unwrap();
-        let point = SurfacePoint::new(&world.scene, &world.geometry, &ray, hit);
-        let sine_squared = 1.0 / f64::from(from.distance_squared(center));
-        let solid_angle = 2.0 * f64::from(PI) * (1.0 - (1.0 - sine_squared).sqrt());
-        f64::from(world.lights.pdf_of_hit(from, &point)) * solid_angle
-    };
-    let chances: Vec<f64> = (0..4).map(chance).collect();
-    assert!((chances.iter().sum::<f64>() - 1.0).abs() < 1e-4, "{chances:?}");
-    assert_eq!(chances[1], 0.0);
-    assert!((chances[3] - 0.5).abs() < 1e-4, "{chances:?}");
-}
-
-#[test]
 fn one_sided_emitters_are_dark_from_behind_and_inside() {
     let disc = alone(Shape::Disc { radius: 1.0 }, false, Affine3A::IDENTITY);
     let ball = alone(Shape::Sphere { radius: 1.0 }, false, Affine3A::IDENTITY);
@@ -414,7 +440,8 @@ fn one_sided_emitters_are_dark_from_behind_and_inside() {
     ] {
         for i in 0..256 {
             let [u, v, choice, _] = Sampler::at(Sequence::Sobol, 1, [0, 0], i).group(Domain::new(0, 0));
-            assert_eq!(world.lights.sample(&world.scene, from, f64::from(choice), [u, v]), None, "{name}");
+            let sample = world.lights.sample(&world.scene, from, Vec3::ZERO, f64::from(choice), [u, v]);
+            assert_eq!(sample, None, "{name}");
         }
     }
 }

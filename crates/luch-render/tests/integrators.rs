@@ -8,7 +8,8 @@ mod integrators {
 use integrators::odd;
 use luch_image::Rgb;
 use luch_render::{
-    CameraSample, Film, Inspect, Integrator, Occlusion, PathTracer, PlainPathTracer, Stop, View, World,
+    BUNDLE, CameraSample, Film, Inspect, Integrator, Occlusion, PathTracer, PlainPathTracer, Stop, View,
+    World,
 };
 use luch_render::{from_settings, render_pass};
 use luch_sampling::hash;
@@ -19,7 +20,8 @@ use std::sync::atomic::AtomicU64;
 fn integrators(view: &View) -> Vec<(String, Box<dyn Integrator>)> {
     let mut all: Vec<(String, Box<dyn Integrator>)> = vec![
         ("path".into(), Box::new(PathTracer::default())),
-        ("path of no bounce".into(), Box::new(PathTracer { max_depth: 0 })),
+        ("path of no bounce".into(), Box::new(PathTracer { max_depth: 0, ..PathTracer::default() })),
+        ("path alone".into(), Box::new(PathTracer { reuse: false, ..PathTracer::default() })),
         ("plain path".into(), Box::new(PlainPathTracer { max_depth: 64 })),
         ("direct".into(), from_settings(Name::Direct, view)),
         ("occlusion".into(), Box::new(Occlusion { distance: f32::INFINITY })),
@@ -38,15 +40,31 @@ fn shoot(
     count: u64,
 ) -> (View, Vec<CameraSample>, Vec<Rgb>) {
     let view = View::new(&scene.cameras[0].camera, &scene.settings);
-    let samples: Vec<CameraSample> = (0..view.height())
-        .flat_map(|y| (0..view.width()).map(move |x| [x, y]))
-        .flat_map(|pixel| (0..count).map(move |index| (pixel, index)))
-        .map(|(pixel, index)| view.start(pixel, index))
-        .collect();
+    let samples = bundles(&view, count).concat();
     // What stands there before must not matter.
     let mut radiance = vec![Rgb::gray(f32::NAN); samples.len()];
     integrator.radiance(world, &samples, &mut radiance, &Stop::new()).unwrap();
     (view, samples, radiance)
+}
+
+/// All samples of the picture with indices below `count`, bundle by bundle.
+fn bundles(view: &View, count: u64) -> Vec<Vec<CameraSample>> {
+    let mut all = Vec::new();
+    for index in 0..count {
+        for top in (0..view.height()).step_by(BUNDLE as usize) {
+            for left in (0..view.width()).step_by(BUNDLE as usize) {
+                let pixels: Vec<[u32; 2]> = (top..view.height().min(top + BUNDLE))
+                    .flat_map(|y| (left..view.width().min(left + BUNDLE)).map(move |x| [x, y]))
+                    .collect();
+                let (size, number) = (pixels.len() as u32, all.len() as u32);
+                let start = |(lane, pixel): (u32, &[u32; 2])| {
+                    view.start_bundled(*pixel, index, number, [left, top], [lane, size])
+                };
+                all.push((0..).zip(&pixels).map(start).collect());
+            }
+        }
+    }
+    all
 }
 
 fn bits(radiance: &[Rgb]) -> Vec<[u32; 3]> {
@@ -59,23 +77,34 @@ fn nobody_is_changed_by_who_travels_beside_it() {
         let world = World::build(scene.clone()).unwrap();
         let view = View::new(&scene.cameras[0].camera, &scene.settings);
         for (which, integrator) in integrators(&view) {
-            let (_, samples, together) = shoot(&scene, &world, &*integrator, 3);
+            let (_, _, together) = shoot(&scene, &world, &*integrator, 3);
             let together = bits(&together);
+            let bundles = bundles(&view, 3);
             for size in [1, 7, 64] {
-                let mut apart = vec![Rgb::BLACK; samples.len()];
-                for (samples, radiance) in samples.chunks(size).zip(apart.chunks_mut(size)) {
-                    integrator.radiance(&world, samples, radiance, &Stop::new()).unwrap();
+                let mut apart = Vec::new();
+                for some in bundles.chunks(size) {
+                    let samples = some.concat();
+                    let mut radiance = vec![Rgb::BLACK; samples.len()];
+                    integrator.radiance(&world, &samples, &mut radiance, &Stop::new()).unwrap();
+                    apart.extend(radiance);
                 }
-                assert!(bits(&apart) == together, "{which} of {name} in batches of {size}");
+                assert!(bits(&apart) == together, "{which} of {name} in batches of {size} bundles");
             }
             // Shuffled.
-            let mut order: Vec<usize> = (0..samples.len()).collect();
+            let mut order: Vec<usize> = (0..bundles.len()).collect();
             order.sort_by_key(|&i| hash::mix64(i as u64));
-            let shuffled: Vec<CameraSample> = order.iter().map(|&i| samples[i]).collect();
-            let mut radiance = vec![Rgb::BLACK; samples.len()];
+            let shuffled = order.iter().flat_map(|&i| bundles[i].clone()).collect::<Vec<_>>();
+            let mut radiance = vec![Rgb::BLACK; shuffled.len()];
             integrator.radiance(&world, &shuffled, &mut radiance, &Stop::new()).unwrap();
-            let mut back = vec![Rgb::BLACK; samples.len()];
-            order.iter().zip(radiance).for_each(|(&i, value)| back[i] = value);
+            let mut starts = vec![0; bundles.len()];
+            for i in 1..bundles.len() {
+                starts[i] = starts[i - 1] + bundles[i - 1].len();
+            }
+            let mut back = vec![Rgb::BLACK; shuffled.len()];
+            let mut shown = radiance.into_iter();
+            for &i in &order {
+                back[starts[i]..starts[i] + bundles[i].len()].fill_with(|| shown.next().unwrap());
+            }
             assert!(bits(&back) == together, "{which} of {name} shuffled");
         }
     }
@@ -130,13 +159,8 @@ fn mean_and_error(scene: Scene, integrator: &dyn Integrator, count: u64) -> (f64
     let world = World::build(scene).unwrap();
     let mut film = Film::new(view.width(), view.height());
     render_pass(&world, &view, integrator, &mut film, 0..count, &Stop::new(), &AtomicU64::new(0)).unwrap();
-    let pixels = f64::from(view.width() * view.height());
-    let (mut mean, mut variance) = (0.0, 0.0);
-    film.read(|estimate, _| {
-        mean += estimate.mean[1] / pixels;
-        variance += estimate.variance.unwrap()[1] / (pixels * pixels);
-    });
-    (mean, variance.sqrt())
+    let estimate = film.mean().unwrap();
+    (estimate.mean[1], estimate.standard_error[1])
 }
 
 #[test]

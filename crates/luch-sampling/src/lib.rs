@@ -37,9 +37,11 @@ pub mod distribution;
 pub mod estimate;
 pub mod frame;
 pub mod hash;
+pub mod lanes;
 pub mod mis;
 pub mod sampler;
 pub mod sequence;
+pub mod trig;
 pub mod warp;
 
 pub use distribution::DistributionError;

@@ -59,8 +59,24 @@ impl Sampler {
     /// The same four numbers as fractions of 2³²: 32 bits each, for those who need more than an `f32` holds.
     #[inline]
     pub fn group_words(&self, domain: Domain) -> [u32; 4] {
-        let key = hash::mix64(self.key ^ u64::from(domain.0).wrapping_add(1).wrapping_mul(hash::GOLDEN));
-        self.sequence.words(key, self.index)
+        self.sequence.words(self.domain_key(domain), self.index)
+    }
+
+    /// The randomisation of a domain.
+    #[inline(always)]
+    pub(crate) fn domain_key(&self, domain: Domain) -> u64 {
+        hash::mix64(self.key ^ u64::from(domain.0).wrapping_add(1).wrapping_mul(hash::GOLDEN))
+    }
+
+    #[inline(always)]
+    pub(crate) fn index_in_stream(&self) -> u32 {
+        self.index
+    }
+
+    /// Where the numbers come from.
+    #[inline(always)]
+    pub fn sequence(&self) -> Sequence {
+        self.sequence
     }
 
     /// The stream this sample belongs to: 0 (A) or 1 (B), the lowest bit of its index.

@@ -56,12 +56,15 @@ pub enum Surface {
         /// Albedo, 0 to 1.
         color: ColorValue,
     },
-    /// A metal or mirror: GGX microfacets, with the light of multiple bounces between them put back.
+    /// A metal or mirror: GGX microfacets.
     Conductor {
         /// Reflection at the single facet.
         reflectance: Reflectance,
         /// Perceptual roughness, 0 (mirror) to 1; the GGX width is its square.
         roughness: ScalarValue,
+        /// Whether the light of multiple bounces between the facets is put back. Without it rough metals are too dark, as they are in
+        /// renderers that leave it out.
+        compensated: bool,
     },
     /// Glass or water: reflects and refracts.
     Dielectric {

@@ -146,7 +146,7 @@ impl Problems<'_> {
         match surface {
             Surface::Absorber => {}
             Surface::Diffuse { color } => self.color(color, 1.0, owner, "color"),
-            Surface::Conductor { reflectance, roughness } => {
+            Surface::Conductor { reflectance, roughness, compensated: _ } => {
                 self.scalar(roughness, 0.0, 1.0, owner, "roughness");
                 match reflectance {
                     Reflectance::Metal(_) => {}

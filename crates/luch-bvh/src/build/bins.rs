@@ -1,104 +1,164 @@
-//! Bins of centroids along each axis, and the best plane between two of them.
+//! Bins of middles along each axis, and the best plane between two of them.
 
-use super::{Candidate, PARALLEL, Reference, Settings, widest};
-use crate::Aabb;
-use glam::Vec3;
+use super::binned::{PORTION, Plan};
+use super::bounds::{Bounds, Scale};
+use super::item::Item;
 use rayon::prelude::*;
 
+/// The most bins along an axis; a power of two.
 const MAX_BINS: usize = 32;
 
-#[derive(Clone, Copy)]
-struct Bin {
-    bounds: Aabb,
-    count: u32,
+/// Which bin a middle belongs to.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Grid {
+    scale: Scale,
+    low: [f32; 4],
+    factor: [f32; 4],
+    used: usize,
 }
 
-const EMPTY: Bin = Bin { bounds: Aabb::empty(), count: 0 };
+/// 2²³: the sum of this and a number from 0 to 2²² has that number, rounded, as its last bits.
+const ROUNDING: f32 = 8_388_608.0;
 
-/// Centroids sorted roughly along each axis.
+impl Grid {
+    /// `None` if there is nothing to tell the middles apart by.
+    pub(super) fn new(middles: &Bounds, count: usize, plan: Plan) -> Option<Self> {
+        // Few items need few bins: the work at a bin is that of several items.
+        let used = (8 + count / 16).min(plan.bins);
+        let factor = std::array::from_fn(|axis| {
+            let size = middles.high[axis] - middles.low[axis];
+            if axis < 3 && size > 0.0 { used as f32 / size } else { 0.0 }
+        });
+        let tells = factor.iter().any(|factor| *factor > 0.0);
+        tells.then_some(Self { scale: plan.scale, low: middles.low, factor, used })
+    }
+
+    /// The bin along one axis. It never falls as the middle rises, and what is not a number goes into the first.
+    #[inline(always)]
+    fn place(&self, middle: f32, axis: usize) -> u32 {
+        let place = (middle - self.low[axis]) * self.factor[axis] - 0.5;
+        let place = if place > 0.0 { place } else { 0.0 };
+        let last = (self.used - 1) as f32;
+        let place = if place < last { place } else { last };
+        (place + ROUNDING).to_bits() & (MAX_BINS as u32 - 1)
+    }
+
+    #[inline(always)]
+    pub(super) fn place_along(&self, middle: f32, axis: usize) -> usize {
+        self.place(middle, axis) as usize
+    }
+
+    /// The bins along all axes.
+    #[inline(always)]
+    fn places(&self, bounds: &Bounds) -> [u32; 4] {
+        let middle = self.scale.middle(bounds);
+        std::array::from_fn(|axis| self.place(middle[axis], axis))
+    }
+}
+
+/// Where a node is best split.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Candidate {
+    pub(super) cost: f32,
+    pub(super) axis: usize,
+    /// The first bin of the second part.
+    pub(super) at: usize,
+}
+
+/// Middles sorted roughly along each axis.
 #[derive(Clone)]
 pub(super) struct Bins {
-    bins: [[Bin; MAX_BINS]; 3],
+    bounds: [[Bounds; MAX_BINS]; 3],
+    counts: [[u32; MAX_BINS]; 3],
     used: usize,
-    axes: std::ops::Range<usize>,
-    low: Vec3,
-    scale: Vec3,
 }
 
 impl Bins {
-    pub(super) fn of(references: &[Reference], centroids: &Aabb, settings: Settings) -> Self {
-        let used = settings.bins.min(references.len().max(4));
-        let size = centroids.max - centroids.min;
-        let axes = if settings.all_axes { 0..3 } else { widest(size)..widest(size) + 1 };
-        let scale = Vec3::from_array(size.to_array().map(|size| used as f32 / size));
-        let mut bins = Self { bins: [[EMPTY; MAX_BINS]; 3], used, axes, low: centroids.min, scale };
-        if references.len() > PARALLEL {
-            let empty = bins.clone();
-            let filled = references.par_chunks(PARALLEL).map(|chunk| {
-                let mut bins = empty.clone();
-                bins.add(chunk);
-                bins
-            });
-            bins = filled.reduce(|| empty.clone(), Self::merged);
-        } else {
-            bins.add(references);
-        }
-        bins
+    pub(super) fn new() -> Self {
+        Self { bounds: [[Bounds::EMPTY; MAX_BINS]; 3], counts: [[0; MAX_BINS]; 3], used: 0 }
     }
 
-    fn add(&mut self, references: &[Reference]) {
-        for reference in references {
-            for axis in self.axes.clone() {
-                let place = self.place(reference, axis);
-                let bin = &mut self.bins[axis][place];
-                bin.bounds = bin.bounds.union(&reference.bounds);
-                bin.count += 1;
+    /// Empties the bins and fills them with the items.
+    pub(super) fn fill(&mut self, items: &[Item], grid: Grid) {
+        self.used = grid.used;
+        for axis in 0..3 {
+            self.bounds[axis][..grid.used].fill(Bounds::EMPTY);
+            self.counts[axis][..grid.used].fill(0);
+        }
+        if items.len() > 2 * PORTION {
+            let filled = items.par_chunks(PORTION).map(|portion| {
+                let mut bins = Box::new(Self::new());
+                bins.add(portion, grid);
+                bins
+            });
+            if let Some(bins) = filled.reduce_with(Self::merged) {
+                self.bounds = bins.bounds;
+                self.counts = bins.counts;
+            }
+        } else {
+            self.add(items, grid);
+        }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, items: &[Item], grid: Grid) {
+        for item in items {
+            let bounds = item.bounds();
+            let places = grid.places(&bounds);
+            for ((bins, counts), place) in self.bounds.iter_mut().zip(&mut self.counts).zip(places) {
+                let place = place as usize % MAX_BINS;
+                bins[place] = bins[place].union(&bounds);
+                counts[place] += 1;
             }
         }
     }
 
-    fn merged(mut self, other: Self) -> Self {
-        for axis in self.axes.clone() {
-            for (bin, more) in self.bins[axis].iter_mut().zip(&other.bins[axis]) {
-                bin.bounds = bin.bounds.union(&more.bounds);
-                bin.count += more.count;
+    fn merged(mut self: Box<Self>, other: Box<Self>) -> Box<Self> {
+        for axis in 0..3 {
+            for place in 0..MAX_BINS {
+                self.bounds[axis][place] = self.bounds[axis][place].union(&other.bounds[axis][place]);
+                self.counts[axis][place] += other.counts[axis][place];
             }
         }
         self
     }
 
-    /// The bin of a reference. The cast turns what is not a number, 0·∞ where all centroids agree, into bin 0.
-    #[inline(always)]
-    pub(super) fn place(&self, reference: &Reference, axis: usize) -> usize {
-        let centroid = reference.bounds.min[axis] * 0.5 + reference.bounds.max[axis] * 0.5;
-        let place = ((centroid - self.low[axis]) * self.scale[axis]) as u32;
-        place.min(self.used as u32 - 1) as usize
-    }
-
-    /// The plane with the least sum of area times count; the first of equals. `None` if all centroids share a bin.
-    pub(super) fn best(&self) -> Option<Candidate> {
+    /// The plane with the least sum of area times blocks; the first of equals. `None` if all middles share a bin, or where
+    /// boxes have no end.
+    pub(super) fn best(&self, plan: Plan) -> Option<Candidate> {
         let mut best: Option<Candidate> = None;
-        for axis in self.axes.clone() {
-            let bins = &self.bins[axis][..self.used];
+        let mut least = f32::INFINITY;
+        for axis in 0..3 {
+            let bounds = &self.bounds[axis][..self.used];
+            let counts = &self.counts[axis][..self.used];
             let mut behind = [0.0; MAX_BINS];
-            let mut right = EMPTY;
+            let mut right = Bounds::EMPTY;
+            let mut all = 0;
             for at in (1..self.used).rev() {
-                right.bounds = right.bounds.union(&bins[at].bounds);
-                right.count += bins[at].count;
-                behind[at] = right.bounds.half_area() * f64::from(right.count);
+                right = right.union(&bounds[at]);
+                all += counts[at];
+                behind[at] = plan.scale.half_area(&right) * plan.blocks(all);
             }
-            let all = right.count + bins[0].count;
-            let mut left = EMPTY;
+            all += counts[0];
+            let mut left = Bounds::EMPTY;
+            let mut before = 0;
             for at in 1..self.used {
-                left.bounds = left.bounds.union(&bins[at - 1].bounds);
-                left.count += bins[at - 1].count;
-                let cost = left.bounds.half_area() * f64::from(left.count) + behind[at];
-                let splits = left.count > 0 && left.count < all;
-                if splits && cost < best.map_or(f64::INFINITY, |best| best.cost) {
+                left = left.union(&bounds[at - 1]);
+                before += counts[at - 1];
+                let cost = plan.scale.half_area(&left) * plan.blocks(before) + behind[at];
+                if cost < least && before > 0 && before < all {
+                    least = cost;
                     best = Some(Candidate { cost, axis, at });
                 }
             }
         }
         best
+    }
+
+    /// The boxes of both sides of a split.
+    pub(super) fn sides(&self, split: &Candidate) -> [Bounds; 2] {
+        let union = |bins: &[Bounds]| bins.iter().fold(Bounds::EMPTY, |all, bounds| all.union(bounds));
+        let (left, right) = self.bounds[split.axis][..self.used].split_at(split.at);
+        [union(left), union(right)]
     }
 }

@@ -1,7 +1,7 @@
 //! What an instance can be a copy of.
 
 use crate::shape::{Disc, Parallelogram, Plane, Sphere};
-use crate::tree::Stack;
+use crate::simd::{Isa, Stack};
 use crate::{Aabb, Crossing, Hit, Ray, TriangleBvh};
 use std::sync::Arc;
 
@@ -34,7 +34,7 @@ impl Geometry {
 
     /// The nearest accepted hit. One of a mesh beyond `bound` may be left out.
     #[inline(always)]
-    pub(super) fn nearest(
+    pub(super) fn nearest<I: Isa>(
         &self,
         ray: &Ray,
         bound: f32,
@@ -43,16 +43,14 @@ impl Geometry {
         accept: impl FnMut(&Hit) -> bool,
     ) -> Option<Hit> {
         match self {
-            Self::Triangles(triangles) => {
-                triangles.search(ray, bound, stack, |crossing| crossing.front || !cull_back, accept)
-            }
+            Self::Triangles(triangles) => triangles.mesh().nearest::<I>(ray, bound, stack, cull_back, accept),
             shape => shape.hits(ray, cull_back).find(accept),
         }
     }
 
     /// Whether there is any accepted hit.
     #[inline(always)]
-    pub(super) fn any(
+    pub(super) fn any<I: Isa>(
         &self,
         ray: &Ray,
         stack: &mut Stack,
@@ -60,15 +58,13 @@ impl Geometry {
         mut accept: impl FnMut(&Hit) -> bool,
     ) -> bool {
         match self {
-            Self::Triangles(triangles) => {
-                triangles.meets(ray, stack, |crossing| crossing.front || !cull_back, accept)
-            }
+            Self::Triangles(triangles) => triangles.mesh().any::<I>(ray, stack, cull_back, accept),
             shape => shape.hits(ray, cull_back).any(|hit| accept(&hit)),
         }
     }
 
     /// The hits of a shape, nearest first.
-    fn hits(&self, ray: &Ray, cull_back: bool) -> impl Iterator<Item = Hit> {
+    pub(crate) fn hits(&self, ray: &Ray, cull_back: bool) -> impl Iterator<Item = Hit> {
         let crossings: [Option<Crossing>; 2] = match self {
             Self::Triangles(_) => [None; 2],
             Self::Sphere(sphere) => sphere.crossings(ray),

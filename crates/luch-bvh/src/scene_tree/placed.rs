@@ -6,17 +6,17 @@ use glam::{Affine3A, Vec3};
 
 /// An instance with the inverse of its placement and its box in the world.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Placed {
+pub(crate) struct Placed {
     /// Rows of the linear part of the map from the world into the geometry's space.
     linear: [Vec3; 3],
     translation: Vec3,
     /// Whether the placement changes nothing, so that rays need not be taken anywhere.
     is_identity: bool,
-    pub(super) geometry: u32,
-    pub(super) cull_back: bool,
-    pub(super) filtered: bool,
+    pub(crate) geometry: u32,
+    pub(crate) cull_back: bool,
+    pub(crate) filtered: bool,
     /// `None` if it has no end.
-    pub(super) bounds: Option<Aabb>,
+    pub(crate) bounds: Option<Aabb>,
 }
 
 impl Placed {
@@ -29,9 +29,14 @@ impl Placed {
         Some(Self { linear, translation, is_identity, geometry: index, cull_back, filtered, bounds })
     }
 
+    /// Whether the placement changes nothing.
+    pub(crate) fn is_identity(&self) -> bool {
+        self.is_identity
+    }
+
     /// The same ray in the space of the geometry; `t` keeps its meaning.
     #[inline(always)]
-    pub(super) fn toward_object(&self, ray: &Ray) -> Ray {
+    pub(crate) fn toward_object(&self, ray: &Ray) -> Ray {
         if self.is_identity {
             return *ray;
         }

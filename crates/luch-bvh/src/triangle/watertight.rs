@@ -4,14 +4,20 @@
 //! the ray becomes the z axis; three edge functions of the sheared corners then decide in the plane. Both triangles at an
 //! edge see the same sheared corners, hence the same number with the opposite sign. A difference of two rounded products
 //! has the right sign or is zero, and when one is zero the three are taken again in double precision, where products of
-//! single precision numbers are exact. Sizes beyond the safe range of single precision go the same way.
+//! single precision numbers are exact. Sizes beyond the safe range of single precision go the same way, and so do weights
+//! that rounding has led astray.
 
 use super::Triangle;
 use crate::slab::{larger, smaller};
 use crate::{Crossing, Ray};
 
 /// Sums of edge functions whose products neither overflow nor lose bits: squares of lengths of 10⁻¹⁵ to 10¹⁵.
-const SAFE: std::ops::Range<f32> = 1e-30..1e30;
+pub(crate) const SAFE: std::ops::Range<f32> = 1e-30..1e30;
+
+/// How far off the ray, as a part of the triangle's reach across it, the weighted sum of the corners may lie: 2⁻²⁰. Weights
+/// that miss by more, because the ray runs almost along the plane of the triangle or the triangle is a sliver, are taken
+/// again in double precision. [`slab`](crate::slab) tells what rests on this.
+pub(crate) const RESIDUAL: f32 = 1.0 / 1_048_576.0;
 
 /// A ray prepared for triangle tests.
 #[derive(Clone, Copy, Debug)]
@@ -35,7 +41,7 @@ impl ShearedRay {
 
     /// As [`ShearedRay::new`] for a ray that is known to be sound.
     pub(crate) fn of_valid(ray: &Ray, t_min: f32, t_max: f32) -> Self {
-        let direction = ray.direction.to_array();
+        let direction = crate::slab::direction(ray);
         let [x, y, z] = direction.map(f32::abs);
         let axis = if x > y && x > z { 0 } else { 1 + usize::from(y <= z) };
         let along = direction[axis];
@@ -67,29 +73,18 @@ impl ShearedRay {
             return None;
         }
         let sum = a + b + c;
-        if least == 0.0 || greatest == 0.0 || !SAFE.contains(&sum.abs()) {
-            return self.exact_hit([ax, ay, az], [bx, by, bz], [cx, cy, cz]);
-        }
         let inverse = 1.0 / sum;
         let (a, b, c) = (a * inverse, b * inverse, c * inverse);
-        self.accept((a * az + b * bz + c * cz) * self.shear[2], b, c, sum > 0.0)
-    }
-
-    /// The same in double precision, from the same sheared corners.
-    #[cold]
-    fn exact_hit(&self, a: [f32; 3], b: [f32; 3], c: [f32; 3]) -> Option<Crossing> {
-        let [ax, ay, az] = a.map(f64::from);
-        let [bx, by, bz] = b.map(f64::from);
-        let [cx, cy, cz] = c.map(f64::from);
-        let a = cx * by - cy * bx;
-        let b = ax * cy - ay * cx;
-        let c = bx * ay - by * ax;
-        if (a < 0.0 || b < 0.0 || c < 0.0) && (a > 0.0 || b > 0.0 || c > 0.0) {
-            return None;
+        let off_x = a * ax + b * bx + c * cx;
+        let off_y = a * ay + b * by + c * cy;
+        let reach = [ay, bx, by, cx, cy].into_iter().fold(ax.abs(), |most, side| larger(most, side.abs()));
+        let is_near = larger(off_x.abs(), off_y.abs()) <= reach * RESIDUAL;
+        if least == 0.0 || greatest == 0.0 || !SAFE.contains(&sum.abs()) || !is_near {
+            let corners = [[ax, ay, az], [bx, by, bz], [cx, cy, cz]];
+            return exact_crossing(corners, self.shear[2], self.t_min, self.t_max, self.ahead);
         }
-        let sum = a + b + c;
-        let t = (a * az + b * bz + c * cz) * f64::from(self.shear[2]) / sum;
-        self.accept(t as f32, (b / sum) as f32, (c / sum) as f32, sum > 0.0)
+        let t = (a * az + b * bz + c * cz) * self.shear[2];
+        accepted(t, b, c, self.t_min, self.t_max, (sum > 0.0) == self.ahead)
     }
 
     /// Turns a corner into the frame where the ray is the z axis; z is not yet divided by the direction.
@@ -101,16 +96,39 @@ impl ShearedRay {
         let y = from_origin((AXIS + 2) % 3) - self.shear[1] * along;
         [x, y, along]
     }
+}
 
-    /// Keeps the hit if it lies on the ray. A sum of zero, a ray in the plane of the triangle or a degenerate triangle,
-    /// made `t` infinite or no number, and the comparison fails.
-    #[inline(always)]
-    fn accept(&self, t: f32, u: f32, v: f32, positive: bool) -> Option<Crossing> {
-        if !(self.t_min <= t && t <= self.t_max) {
-            return None;
-        }
-        // Adding zero makes a negative zero positive; rounding may not leave less than nothing for the first corner.
-        let u = smaller(1.0, u + 0.0);
-        Some(Crossing { t: t + 0.0, u, v: smaller(1.0 - u, v + 0.0), front: positive == self.ahead })
+/// The crossing in double precision, from three corners sheared as above.
+#[cold]
+pub(crate) fn exact_crossing(
+    [a, b, c]: [[f32; 3]; 3],
+    shear_z: f32,
+    t_min: f32,
+    t_max: f32,
+    ahead: bool,
+) -> Option<Crossing> {
+    let [ax, ay, az] = a.map(f64::from);
+    let [bx, by, bz] = b.map(f64::from);
+    let [cx, cy, cz] = c.map(f64::from);
+    let a = cx * by - cy * bx;
+    let b = ax * cy - ay * cx;
+    let c = bx * ay - by * ax;
+    if (a < 0.0 || b < 0.0 || c < 0.0) && (a > 0.0 || b > 0.0 || c > 0.0) {
+        return None;
     }
+    let sum = a + b + c;
+    let t = (a * az + b * bz + c * cz) * f64::from(shear_z) / sum;
+    accepted(t as f32, (b / sum) as f32, (c / sum) as f32, t_min, t_max, (sum > 0.0) == ahead)
+}
+
+/// Keeps the crossing if it lies on the ray. A sum of zero, a ray in the plane of the triangle or a degenerate triangle,
+/// made `t` infinite or no number, and the comparison fails.
+#[inline(always)]
+fn accepted(t: f32, u: f32, v: f32, t_min: f32, t_max: f32, front: bool) -> Option<Crossing> {
+    if !(t_min <= t && t <= t_max) {
+        return None;
+    }
+    // Adding zero makes a negative zero positive; rounding may not leave less than nothing for the first corner.
+    let u = smaller(1.0, u + 0.0);
+    Some(Crossing { t: t + 0.0, u, v: smaller(1.0 - u, v + 0.0), front })
 }

@@ -8,5 +8,6 @@ mod instances;
 mod meshes;
 mod random;
 mod slabs;
+mod splits;
 mod triangles;
 mod watertight;

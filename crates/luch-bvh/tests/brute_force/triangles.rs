@@ -173,7 +173,7 @@ fn better_quality_costs_less() {
     let mesh = meshes::torus(100, 50);
     let cost = Quality::ALL.map(|quality| {
         let statistics = TriangleBvh::build(&mesh.positions, &mesh.triangles, quality).statistics();
-        assert_eq!(statistics.nodes + 1, statistics.leaves);
+        assert!(statistics.nodes < statistics.leaves, "{statistics:?}");
         assert!(statistics.depth < 40, "{statistics:?}");
         statistics.expected_cost
     });

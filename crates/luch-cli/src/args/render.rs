@@ -26,7 +26,7 @@ use std::time::Duration;
 pub(crate) struct RenderArgs {
     /// A scene: .kdl, .gltf, .glb, .obj, .ply, .stl; may be left out with --resume FILM
     pub(crate) file: Option<PathBuf>,
-    /// What to write: .png, .jpg, .exr, .hdr, .pfm, .luch (may be given several times) [default: the scene's name with .png, in this folder]
+    /// What to write: .png, .jpg, .exr, .hdr, .pfm, .npy, .luch (may be given several times) [default: the scene's name with .png, in this folder]
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: Vec<PathBuf>,
     #[command(flatten)]

@@ -68,7 +68,7 @@ fn texture_uses(material: &Material) -> Vec<TextureUse> {
     match &material.surface {
         Surface::Absorber => {}
         Surface::Diffuse { color } => colors.push(color),
-        Surface::Conductor { reflectance, roughness } => {
+        Surface::Conductor { reflectance, roughness, compensated: _ } => {
             if let Reflectance::Color(color) = reflectance {
                 colors.push(color);
             }

@@ -1,5 +1,6 @@
 //! The command as people run it: in a folder of its own, judged by what it writes, says and ends with.
 
+mod bench;
 mod compare;
 mod errors;
 mod interrupt;

@@ -6,11 +6,11 @@ use luch::image::codec::{self, Format, decode_exr_layers};
 #[test]
 fn every_format_holds_the_picture() {
     let place = Workplace::new();
-    place.done("render scene.kdl -o a.png -o a.jpg -o a.exr -o a.hdr -o a.pfm");
-    assert_eq!(place.files(), ["a.exr", "a.hdr", "a.jpg", "a.luch", "a.pfm", "a.png", "scene.kdl"]);
+    place.done("render scene.kdl -o a.png -o a.jpg -o a.exr -o a.hdr -o a.pfm -o a.npy");
+    assert_eq!(place.files(), ["a.exr", "a.hdr", "a.jpg", "a.luch", "a.npy", "a.pfm", "a.png", "scene.kdl"]);
     let film = place.film("a.luch");
     assert!(film.holds(&(0..4)) && film.mean_samples() == 4.0);
-    for (name, format) in [("a.exr", Format::Exr), ("a.pfm", Format::Pfm)] {
+    for (name, format) in [("a.exr", Format::Exr), ("a.pfm", Format::Pfm), ("a.npy", Format::Npy)] {
         let light = codec::decode(&place.bytes(name), Some(format)).unwrap().to_rgb();
         assert_eq!(light, film.to_image(), "{name}");
     }
@@ -86,7 +86,11 @@ fn progress_as_json_is_one_object_a_line() {
     assert!(names[1..names.len() - 1].iter().all(|name| *name == "progress"));
     let end = events.last().unwrap();
     assert_eq!((end["samples_per_pixel"].as_f64(), end["ending"].as_str()), (Some(64.0), Some("samples")));
-    assert!(end["error"].as_f64().unwrap() > 0.0 && end["elapsed"].as_f64().unwrap() > 0.0);
+    let number = |key: &str| end[key].as_f64().unwrap();
+    assert!(number("error") > 0.0 && number("elapsed") > 0.0);
+    // Rendering alone took time, and no more than there was.
+    assert!(number("render_seconds") > 0.0 && number("render_seconds") <= number("elapsed"));
+    assert!(!cfg!(unix) || number("processor_seconds") > 0.0);
 }
 
 #[test]

@@ -151,6 +151,7 @@ impl Work<'_, '_> {
         let conductor = |color| Surface::Conductor {
             reflectance: Reflectance::Color(color),
             roughness: roughness.into(),
+            compensated: true,
         };
         if is_plain {
             return conductor(specular);

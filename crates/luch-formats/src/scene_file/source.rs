@@ -2,7 +2,7 @@
 
 use crate::{Place, Problem};
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Most problems that are told of one scene.
 const MOST_PROBLEMS: usize = 100;
@@ -58,6 +58,12 @@ impl Source {
 }
 
 impl Report {
+    /// Keeps a text that is read now, and says its place among all of them.
+    pub(crate) fn add_source(&mut self, path: &Path, text: &str) -> usize {
+        self.sources.push(Source { path: path.to_owned(), text: text.to_owned() });
+        self.sources.len() - 1
+    }
+
     /// Notes a problem at a place.
     pub(crate) fn add(&mut self, span: &Span, message: impl Into<String>, help: Option<String>) {
         if self.problems.len() == MOST_PROBLEMS {

@@ -52,6 +52,7 @@ impl Decoder<'_> {
     /// `conductor "gold"`, `conductor color=0.9` or `conductor { eta …; k … }`.
     fn conductor(&mut self, fields: &mut Fields) -> Surface {
         let roughness = self.scalar_or(fields, "roughness", Range::UNIT, 0.0);
+        let compensated = self.flag_or(fields, "compensated", true);
         let color = fields.take(self, "color");
         let eta = self.optional_constant(fields, "eta", COMPLEX_INDEX);
         let k = self.optional_constant(fields, "k", COMPLEX_INDEX);
@@ -81,7 +82,7 @@ impl Decoder<'_> {
             );
             self.problem(&fields.span, "`conductor` lacks its metal", Some(help));
         }
-        Surface::Conductor { reflectance, roughness }
+        Surface::Conductor { reflectance, roughness, compensated }
     }
 
     fn principled(&mut self, fields: &mut Fields) -> Principled {

@@ -19,12 +19,22 @@ pub enum Format {
     Exr,
     /// Portable float map.
     Pfm,
+    /// Array file of NumPy.
+    Npy,
 }
 
 impl Format {
     /// Every format.
-    pub const ALL: [Format; 7] =
-        [Format::Png, Format::Jpeg, Format::Bmp, Format::Tga, Format::Hdr, Format::Exr, Format::Pfm];
+    pub const ALL: [Format; 8] = [
+        Format::Png,
+        Format::Jpeg,
+        Format::Bmp,
+        Format::Tga,
+        Format::Hdr,
+        Format::Exr,
+        Format::Pfm,
+        Format::Npy,
+    ];
 
     /// The usual name, in capitals.
     pub fn name(self) -> &'static str {
@@ -36,6 +46,7 @@ impl Format {
             Format::Hdr => "HDR",
             Format::Exr => "EXR",
             Format::Pfm => "PFM",
+            Format::Npy => "NPY",
         }
     }
 
@@ -54,6 +65,7 @@ impl Format {
             Format::Hdr => &["hdr", "pic", "rgbe"],
             Format::Exr => &["exr"],
             Format::Pfm => &["pfm"],
+            Format::Npy => &["npy"],
         }
     }
 
@@ -66,7 +78,7 @@ impl Format {
     /// The format of a whole file or its beginning. TGA has no mark at its start, so its header must be plausible
     /// in every field, or the file must end with the mark of TGA 2.
     pub fn from_magic(bytes: &[u8]) -> Option<Format> {
-        let marks: [(&[u8], Format); 9] = [
+        let marks: [(&[u8], Format); 10] = [
             (b"\x89PNG\r\n\x1a\n", Format::Png),
             (b"\xff\xd8\xff", Format::Jpeg),
             (b"BM", Format::Bmp),
@@ -76,6 +88,7 @@ impl Format {
             (b"PF\n", Format::Pfm),
             (b"Pf\n", Format::Pfm),
             (b"PF4\n", Format::Pfm),
+            (super::npy::MAGIC, Format::Npy),
         ];
         marks
             .into_iter()

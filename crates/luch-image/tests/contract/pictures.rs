@@ -65,6 +65,7 @@ pub(crate) fn examples(metadata: &Metadata) -> Vec<(Format, Vec<u8>)> {
         (Format::Hdr, codec::encode_hdr(&image, metadata).unwrap()),
         (Format::Exr, codec::encode_exr(&layers, metadata).unwrap()),
         (Format::Pfm, codec::encode_pfm(&image).unwrap()),
+        (Format::Npy, codec::encode_npy(&image).unwrap()),
         (Format::Bmp, bmp(&eight)),
         (Format::Tga, tga(&eight)),
     ]
@@ -134,6 +135,11 @@ pub(crate) fn lying_headers(width: u32, height: u32) -> Vec<(Format, Vec<u8>)> {
     let display = find(&exr, b"displayWindow\0box2i\0") + 20 + 4 + 8;
     let exr = patch(patch(exr, data, &far), display, &far);
 
+    // The numbers of the other size are blanked out as well.
+    let npy = file(Format::Npy)[..128].to_vec();
+    let shape = find(&npy, b"(17, 23, 3), }");
+    let npy = patch(npy, shape, format!("({height}, {width}, 3), }}").as_bytes());
+
     vec![
         (Format::Png, png),
         (Format::Jpeg, jpeg),
@@ -142,6 +148,7 @@ pub(crate) fn lying_headers(width: u32, height: u32) -> Vec<(Format, Vec<u8>)> {
         (Format::Hdr, format!("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n").into_bytes()),
         (Format::Exr, exr),
         (Format::Pfm, format!("PF\n{width} {height}\n-1\n").into_bytes()),
+        (Format::Npy, npy),
     ]
 }
 

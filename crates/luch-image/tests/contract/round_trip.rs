@@ -41,12 +41,13 @@ fn png_keeps_every_bit() {
 }
 
 #[test]
-fn pfm_keeps_every_bit() {
+fn pfm_and_npy_keep_every_bit() {
     for (width, height) in [(1, 1), (5, 4)] {
         let image = light(width, height);
-        let bytes = codec::encode_pfm(&image).unwrap();
-        let again = codec::decode(&bytes, None).unwrap();
-        assert_eq!(pictures::bits(&again.to_rgb()), pictures::bits(&image));
+        for bytes in [codec::encode_pfm(&image).unwrap(), codec::encode_npy(&image).unwrap()] {
+            let again = codec::decode(&bytes, None).unwrap();
+            assert_eq!(pictures::bits(&again.to_rgb()), pictures::bits(&image));
+        }
     }
 }
 
@@ -161,7 +162,7 @@ fn every_format_is_known_by_its_first_bytes() {
         assert!(known.iter().any(|(example, _)| *example == format), "no example of {format}");
     }
     let error = codec::decode(b"<svg xmlns=", None).unwrap_err().to_string();
-    assert!(error.contains("<svg") && error.contains("PNG, JPEG, BMP, TGA, HDR, EXR, PFM"), "{error}");
+    assert!(error.contains("<svg") && error.contains("PNG, JPEG, BMP, TGA, HDR, EXR, PFM, NPY"), "{error}");
 }
 
 #[test]
@@ -170,6 +171,7 @@ fn what_cannot_be_written_is_refused() {
     let empty8 = Image::from_pixels(0, 5, Vec::new()).unwrap();
     let none = Metadata::new();
     assert!(matches!(codec::encode_pfm(&empty), Err(EncodeError::Size { .. })));
+    assert!(matches!(codec::encode_npy(&empty), Err(EncodeError::Size { .. })));
     assert!(matches!(codec::encode_hdr(&empty, &none), Err(EncodeError::Size { .. })));
     assert!(matches!(codec::encode_png8(&empty8, &none), Err(EncodeError::Size { .. })));
     assert!(matches!(codec::encode_jpeg(&empty8, 90, &none), Err(EncodeError::Size { .. })));

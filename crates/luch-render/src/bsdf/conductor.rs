@@ -3,6 +3,7 @@
 //! Value of a rough one: F D G₂ / (4 cos o) plus the lobe of Kulla and Conty,
 //! (1 − E(o)) (1 − E(i)) / (π (1 − Ē)) · cos i times F̄² Ē / (1 − F̄ (1 − Ē)), where E is the single-bounce albedo at reflectance 1,
 //! Ē its mean and F̄ the mean of Fresnel's reflectance. At F = 1 the albedo is 1 for every roughness. Both sides alike.
+//! The second lobe can be left out, for scenes that were made for renderers without it.
 
 use super::albedo::CompensatedGgx;
 use super::fresnel::{
@@ -75,12 +76,28 @@ impl ConductorFresnel {
 pub struct Conductor {
     fresnel: ConductorFresnel,
     lobe: Option<CompensatedGgx>,
+    compensated: bool,
 }
 
 impl Conductor {
     /// A metal of perceptual `roughness`, 0 (mirror) to 1; the GGX width is its square.
     pub fn new(fresnel: ConductorFresnel, roughness: f32) -> Self {
-        Self { fresnel, lobe: CompensatedGgx::from_roughness(roughness) }
+        Self { fresnel, lobe: CompensatedGgx::from_roughness(roughness), compensated: true }
+    }
+
+    /// The same metal, whose light bounces once: what a single bounce loses is lost.
+    pub fn uncompensated(self) -> Self {
+        Self { compensated: false, ..self }
+    }
+
+    /// Width and complex index of a rough metal whose light bounces once.
+    pub(crate) fn single_bounce(&self) -> Option<(f32, Rgb, Rgb)> {
+        match (&self.lobe, self.fresnel) {
+            (Some(lobe), ConductorFresnel::Index { eta, k, .. }) if !self.compensated => {
+                Some((lobe.ggx.alpha(), eta, k))
+            }
+            _ => None,
+        }
     }
 
     pub(super) fn is_smooth(&self) -> bool {
@@ -101,6 +118,10 @@ impl Conductor {
         }
         let normal = (outgoing + incoming).normalize_or_zero();
         let single = 0.25 * lobe.ggx.density(normal) * lobe.ggx.visibility(outgoing, incoming) * incoming.z;
+        if !self.compensated {
+            let value = self.fresnel.reflectance(outgoing.dot(normal)) * single;
+            return BsdfValue { value, pdf: 0.25 * lobe.ggx.visible_density(outgoing, normal) };
+        }
         let outgoing_missing = lobe.missing(outgoing.z);
         let multiple = compensation_lobe(lobe, outgoing_missing, lobe.missing(incoming.z)) * incoming.z;
         let value = self.fresnel.reflectance(outgoing.dot(normal)) * single
@@ -116,7 +137,7 @@ impl Conductor {
             return BsdfSample::checked(mirror(outgoing), reflectance, 1.0, true);
         };
         let upper = if outgoing.z < 0.0 { flip(outgoing) } else { outgoing };
-        let incoming = if choice < lobe.missing(upper.z) {
+        let incoming = if self.compensated && choice < lobe.missing(upper.z) {
             cosine_hemisphere(u)
         } else {
             reflect_visible(lobe, upper, u)

@@ -27,6 +27,7 @@ fn conductors() -> Vec<(&'static str, Bsdf)> {
     let white = ConductorFresnel::from_color(Rgb::WHITE);
     let gold = ConductorFresnel::from_index(Rgb::new(0.18, 0.54, 1.33), Rgb::new(3.43, 2.23, 1.88));
     let blue = ConductorFresnel::from_color(BLUE);
+    let single = |fresnel, roughness| Bsdf::Conductor(Conductor::new(fresnel, roughness).uncompensated());
     [
         ("conductor white, roughness 0", white, 0.0),
         ("conductor white, roughness 0.05", white, 0.05),
@@ -41,6 +42,10 @@ fn conductors() -> Vec<(&'static str, Bsdf)> {
     ]
     .into_iter()
     .map(|(name, fresnel, roughness)| (name, Bsdf::Conductor(Conductor::new(fresnel, roughness))))
+    .chain([
+        ("conductor gold, roughness 0.3, one bounce", single(gold, 0.3)),
+        ("conductor blue, roughness 1, one bounce", single(blue, 1.0)),
+    ])
     .collect()
 }
 

@@ -44,6 +44,7 @@ pub fn dielectric_reflectance_mean(eta: f64) -> f64 {
 }
 
 /// Unpolarised reflectance of a metal with complex index `eta` + i `k` (one channel) seen from vacuum.
+#[inline(always)]
 pub fn conductor_reflectance(cosine: f32, eta: f32, k: f32) -> f32 {
     // Exact: Born and Wolf, Principles of Optics, in the real form of de Greve.
     let cosine = cosine.clamp(0.0, 1.0);

@@ -1,6 +1,7 @@
 //! A glowing sphere, sampled uniformly in the solid angle it is seen under.
 
 use super::{EmitterSample, in_front, pdf_of_area};
+use crate::lights::LightBounds;
 use crate::place::Place;
 use glam::{Affine3A, Vec3};
 use luch_image::Rgb;
@@ -112,9 +113,11 @@ impl BallEmitter {
         4.0 * PI * self.radius * self.radius
     }
 
-    pub(crate) fn power(&self, scene: &Scene) -> f32 {
+    pub(crate) fn bounds(&self, scene: &Scene) -> LightBounds {
         let emission = scene.materials[self.material.index()].emission.as_ref();
-        emission.map_or(0.0, |e| e.radiance.factor.luminance()) * self.area() * PI
+        let radiance = emission.map_or(0.0, |e| e.radiance.factor.luminance());
+        // From afar a sphere is a disc.
+        LightBounds::round(self.center, self.radius, radiance * PI * self.radius * self.radius)
     }
 }
 

@@ -1,6 +1,7 @@
 //! A glowing disc, sampled uniformly in area.
 
 use super::{EmitterSample, in_front, pdf_of_area};
+use crate::lights::LightBounds;
 use crate::place::Place;
 use glam::{Affine3A, Vec3};
 use luch_image::Rgb;
@@ -75,8 +76,10 @@ impl DiscEmitter {
         if self.faces(from) { pdf_of_area(from, to, self.normal, self.area).unwrap_or(0.0) } else { 0.0 }
     }
 
-    pub(crate) fn power(&self, scene: &Scene) -> f32 {
+    pub(crate) fn bounds(&self, scene: &Scene) -> LightBounds {
         let emission = scene.materials[self.material.index()].emission.as_ref();
-        emission.map_or(0.0, |e| e.radiance.factor.luminance()) * self.area * PI
+        let intensity = emission.map_or(0.0, |e| e.radiance.factor.luminance()) * self.area;
+        let (center, radius) = (self.placement.translation.into(), (self.area / PI).sqrt());
+        LightBounds::flat(center, radius, self.normal, intensity, self.two_sided)
     }
 }

@@ -1,12 +1,18 @@
 //! What surrounds the scene.
+//!
+//! Paths find it by themselves as well, and well where it is even. So light sampling is left what is brighter than the mean: the
+//! density is that of max(0, L − mean L), which is best for a path tracer that weighs both by the balance heuristic and scatters
+//! about evenly (Karlík et al., "MIS Compensation: Optimizing Sampling Techniques in Multiple Importance Sampling", 2019). An
+//! environment that is the same everywhere is not sampled at all.
 
-use super::EmitterSample;
+mod table;
+
+use super::{EmitterSample, FarLight};
 use glam::{Mat3, Vec3};
 use luch_image::{Bitmap, Rgb};
-use luch_sampling::Piecewise2d;
-use luch_sampling::warp::{sphere, sphere_pdf};
 use luch_scene::{Environment, Id, Scene};
 use std::f32::consts::PI;
+use table::Table;
 
 /// The environment as an emitter.
 #[derive(Debug)]
@@ -21,10 +27,16 @@ pub(crate) struct LatLong {
     image: Id<Bitmap>,
     scale: Rgb,
     rotation: Mat3,
-    /// Over the unit square, rows from the top; by luminance times the sine of the polar angle.
-    table: Piecewise2d,
-    /// Mean luminance over all directions.
-    mean: f32,
+    /// Over the unit square, rows from the top; `None` if nothing is brighter than the rest.
+    bright: Option<Bright>,
+}
+
+/// What is brighter than the mean.
+#[derive(Debug)]
+struct Bright {
+    table: Table,
+    /// Irradiance of a surface if it came evenly from all directions, as luminance.
+    irradiance: f32,
 }
 
 impl EnvironmentEmitter {
@@ -34,94 +46,109 @@ impl EnvironmentEmitter {
             Environment::Constant { radiance } => (!radiance.is_black()).then_some(Self::Constant(radiance)),
             Environment::LatLong { image, scale, rotation } => {
                 let bitmap = &scene.images[image.index()];
-                let weights = weights(bitmap, scale);
-                let table = Piecewise2d::new(bitmap.width as usize, bitmap.height as usize, &weights).ok()?;
-                // ∫ L sin θ dθ dφ / 4π over the unit square is 2π² / 4π times the table's integral.
-                let mean = table.integral() as f32 * PI / 2.0;
-                Some(Self::LatLong(LatLong { image, scale, rotation, table, mean }))
+                let luminance = luminances(bitmap, scale);
+                luminance.iter().any(|&value| value > 0.0).then(|| {
+                    let bright = Bright::new(bitmap.width as usize, luminance);
+                    Self::LatLong(LatLong { image, scale, rotation, bright })
+                })
             }
         }
     }
 
     pub(crate) fn sample(&self, scene: &Scene, u: [f32; 2]) -> Option<EmitterSample> {
+        let Self::LatLong(map) = self else { return None };
+        let drawn = map.bright.as_ref()?.table.draw(u)?;
+        let [x, y] = drawn.position;
+        let (sin_polar, cos_polar) = libm::sincosf(y * PI);
+        let (sin_azimuth, cos_azimuth) = libm::sincosf((x - 0.5) * 2.0 * PI);
+        let local = Vec3::new(sin_polar * sin_azimuth, cos_polar, -sin_polar * cos_azimuth);
+        let pdf = drawn.pdf / (2.0 * PI * PI * sin_polar);
+        EmitterSample::checked(map.rotation * local, None, map.at(scene, x, y), pdf, false)
+    }
+
+    /// Radiance from a direction, and the density of sampling it.
+    pub(crate) fn toward(&self, scene: &Scene, direction: Vec3) -> FarLight {
         match self {
-            Self::Constant(radiance) => {
-                EmitterSample::checked(sphere(u), None, *radiance, sphere_pdf(), false)
-            }
+            Self::Constant(radiance) => FarLight { radiance: *radiance, pdf: 0.0 },
             Self::LatLong(map) => {
-                let drawn = map.table.sample(u);
-                let [x, y] = drawn.position;
-                let (sin_polar, cos_polar) = libm::sincosf(y * PI);
-                let (sin_azimuth, cos_azimuth) = libm::sincosf((x - 0.5) * 2.0 * PI);
-                let local = Vec3::new(sin_polar * sin_azimuth, cos_polar, -sin_polar * cos_azimuth);
-                let pdf = drawn.pdf / (2.0 * PI * PI * sin_polar);
-                EmitterSample::checked(map.rotation * local, None, map.at(scene, x, y), pdf, false)
+                let local = map.rotation.transpose() * direction;
+                let sin_polar = (local.x * local.x + local.z * local.z).sqrt();
+                let x = (0.5 + libm::atan2f(local.x, -local.z) / (2.0 * PI)).clamp(0.0, 1.0);
+                // Near the poles the arc cosine has no digits left.
+                let y = (libm::atan2f(sin_polar, local.y) / PI).clamp(0.0, 1.0);
+                let pdf = match &map.bright {
+                    Some(bright) => bright.table.pdf([x, y]) / (2.0 * PI * PI * sin_polar),
+                    None => 0.0,
+                };
+                let pdf = if pdf.is_finite() { pdf } else { 0.0 };
+                FarLight { radiance: map.at(scene, x, y), pdf }
             }
         }
     }
 
-    /// Radiance from a direction.
-    pub(crate) fn radiance(&self, scene: &Scene, direction: Vec3) -> Rgb {
+    /// Irradiance of what is sampled, as luminance: the weight of the choice. Zero if nothing is.
+    pub(crate) fn irradiance(&self) -> f32 {
         match self {
-            Self::Constant(radiance) => *radiance,
-            Self::LatLong(map) => {
-                let [x, y] = map.place(direction);
-                map.at(scene, x, y)
-            }
+            Self::LatLong(LatLong { bright: Some(bright), .. }) => bright.irradiance,
+            _ => 0.0,
         }
     }
+}
 
-    /// Density with which `sample` draws a direction.
-    pub(crate) fn pdf(&self, direction: Vec3) -> f32 {
-        match self {
-            Self::Constant(_) => sphere_pdf(),
-            Self::LatLong(map) => {
-                let [x, y] = map.place(direction);
-                let (sin_polar, _) = libm::sincosf(y * PI);
-                let pdf = map.table.pdf([x, y]) / (2.0 * PI * PI * sin_polar);
-                if pdf.is_finite() { pdf } else { 0.0 }
+impl Bright {
+    /// The table of a picture of luminances; `None` if it is about even.
+    fn new(width: usize, mut luminance: Vec<f32>) -> Option<Self> {
+        /// Part of the light that must be brighter than the mean to be worth a ray.
+        const LEAST: f64 = 0.02;
+        let height = luminance.len() / width;
+        let sine = |row: usize| libm::sinf((row as f32 + 0.5) / height as f32 * PI);
+        let (mut sum, mut weight) = (0.0, 0.0);
+        for (row, values) in luminance.chunks_exact(width).enumerate() {
+            let sine = f64::from(sine(row));
+            sum += values.iter().map(|&value| f64::from(value)).sum::<f64>() * sine;
+            weight += width as f64 * sine;
+        }
+        let mean = sum / weight;
+        let mut bright = 0.0;
+        for (row, values) in luminance.chunks_exact_mut(width).enumerate() {
+            let sine = sine(row);
+            for value in values {
+                *value = (*value - mean as f32).max(0.0) * sine;
+                bright += f64::from(*value);
             }
         }
-    }
-
-    pub(crate) fn power(&self, scene_radius: f32) -> f32 {
-        let mean = match self {
-            Self::Constant(radiance) => radiance.luminance(),
-            Self::LatLong(map) => map.mean,
-        };
-        // Irradiance π L on a great circle of the ball around the scene, as for a sun.
-        PI * mean * PI * scene_radius * scene_radius
+        if bright < LEAST * sum {
+            return None;
+        }
+        Some(Self { table: Table::new(width, &luminance)?, irradiance: PI * (bright / weight) as f32 })
     }
 }
 
 impl LatLong {
-    /// Place in the unit square, from the upper left.
-    fn place(&self, direction: Vec3) -> [f32; 2] {
-        let local = self.rotation.transpose() * direction;
-        let x = 0.5 + libm::atan2f(local.x, -local.z) / (2.0 * PI);
-        // Near the poles the arc cosine has no digits left.
-        let y = libm::atan2f(libm::hypotf(local.x, local.z), local.y) / PI;
-        [x.clamp(0.0, 1.0), y.clamp(0.0, 1.0)]
-    }
-
-    /// The picture between pixel centres, round the world and held at the poles.
+    /// The picture between pixel centres, round the world and held at the poles; `x` and `y` in [0, 1] from the upper left.
     fn at(&self, scene: &Scene, x: f32, y: f32) -> Rgb {
         let image = &scene.images[self.image.index()];
-        let (width, height) = (image.width as f32, image.height as f32);
-        let (x, y) = (x * width - 0.5, y * height - 0.5);
+        let (width, height) = (image.width, image.height);
+        let (x, y) = (x * width as f32 - 0.5, y * height as f32 - 0.5);
         let (left, top) = (x.floor(), y.floor());
         let (right_part, low_part) = (x - left, y - top);
+        let around = |column: i64| match column {
+            -1 => width - 1,
+            _ if column >= i64::from(width) => (column - i64::from(width)) as u32,
+            _ => column as u32,
+        };
+        let held = |row: i64| row.clamp(0, i64::from(height) - 1) as u32;
+        let (left, top) = (left as i64, top as i64);
+        let (columns, rows) = ([around(left), around(left + 1)], [held(top), held(top + 1)]);
         let mut sum = Rgb::BLACK;
-        for (dx, dy, weight) in [
+        for (column, row, weight) in [
             (0, 0, (1.0 - right_part) * (1.0 - low_part)),
             (1, 0, right_part * (1.0 - low_part)),
             (0, 1, (1.0 - right_part) * low_part),
             (1, 1, right_part * low_part),
         ] {
             if weight > 0.0 {
-                let column = (left as i64 + dx).rem_euclid(i64::from(image.width)) as u32;
-                let row = (top as i64 + dy).clamp(0, i64::from(image.height) - 1) as u32;
-                sum += pixel(image, column, row) * weight;
+                sum += pixel(image, columns[column], rows[row]) * weight;
             }
         }
         sum * self.scale
@@ -134,9 +161,8 @@ fn pixel(image: &Bitmap, x: u32, y: u32) -> Rgb {
     Rgb::new(r, g, b).map(|v| if v.is_finite() { v.max(0.0) } else { 0.0 })
 }
 
-/// For each pixel the mean luminance of the interpolated picture over it, times the sine of its polar angle. Where a neighbour
-/// shines into a dark pixel the weight is positive, so that no light is out of reach.
-fn weights(image: &Bitmap, scale: Rgb) -> Vec<f32> {
+/// For each pixel the mean luminance of the interpolated picture over it.
+fn luminances(image: &Bitmap, scale: Rgb) -> Vec<f32> {
     let (width, height) = (image.width as usize, image.height as usize);
     let luminance: Vec<f32> = (0..height)
         .flat_map(|y| (0..width).map(move |x| (x, y)))
@@ -154,8 +180,7 @@ fn weights(image: &Bitmap, scale: Rgb) -> Vec<f32> {
         .flat_map(|y| (0..width).map(move |x| (x, y)))
         .map(|(x, y)| {
             let at = |row: usize| across[row * width + x];
-            let mean = (at(y.saturating_sub(1)) + 6.0 * at(y) + at((y + 1).min(height - 1))) / 8.0;
-            mean * libm::sinf((y as f32 + 0.5) / height as f32 * PI)
+            (at(y.saturating_sub(1)) + 6.0 * at(y) + at((y + 1).min(height - 1))) / 8.0
         })
         .collect()
 }

@@ -1,9 +1,10 @@
 //! Lamps of no size: a point and a spot.
 
 use super::EmitterSample;
+use crate::lights::LightBounds;
 use glam::Vec3;
 use luch_image::Rgb;
-use std::f32::consts::PI;
+use std::f32::consts::FRAC_PI_2;
 
 /// A point that shines in all directions alike.
 #[derive(Clone, Copy, Debug)]
@@ -20,8 +21,8 @@ impl PointEmitter {
         EmitterSample::checked(way.try_normalize()?, Some(self.position), irradiance, 1.0, true)
     }
 
-    pub(crate) fn power(&self) -> f32 {
-        4.0 * PI * self.intensity.luminance()
+    pub(crate) fn bounds(&self) -> LightBounds {
+        LightBounds::round(self.position, 0.0, self.intensity.luminance())
     }
 }
 
@@ -31,6 +32,8 @@ pub(crate) struct SpotEmitter {
     position: Vec3,
     direction: Vec3,
     intensity: Rgb,
+    inner_angle: f32,
+    outer_angle: f32,
     cos_inner: f32,
     cos_outer: f32,
 }
@@ -45,7 +48,7 @@ impl SpotEmitter {
         outer_angle: f32,
     ) -> Self {
         let (cos_inner, cos_outer) = (libm::cosf(inner_angle), libm::cosf(outer_angle));
-        Self { position, direction, intensity, cos_inner, cos_outer }
+        Self { position, direction, intensity, inner_angle, outer_angle, cos_inner, cos_outer }
     }
 
     /// Part of the intensity on the axis that goes along a direction (KHR_lights_punctual).
@@ -68,9 +71,14 @@ impl SpotEmitter {
         EmitterSample::checked(incoming, Some(self.position), irradiance, 1.0, true)
     }
 
-    pub(crate) fn power(&self) -> f32 {
-        // Full up to the inner angle; between the two, the mean of a square that falls from 1 to 0 is a third.
-        let solid_angle = 2.0 * PI * ((1.0 - self.cos_inner) + (self.cos_inner - self.cos_outer) / 3.0);
-        solid_angle.max(1e-6) * self.intensity.luminance()
+    pub(crate) fn bounds(&self) -> LightBounds {
+        // Full up to the inner angle; from there to the outer one a cosine bounds the decline, if that is no more than a quarter turn.
+        let start = self.inner_angle.max(self.outer_angle - FRAC_PI_2);
+        LightBounds {
+            axis: self.direction,
+            cos_normals: libm::cosf(start),
+            cos_falloff: libm::cosf(self.outer_angle - start).max(0.0),
+            ..LightBounds::round(self.position, 0.0, self.intensity.luminance())
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! A lamp at infinite distance, with or without a visible disc.
 
-use super::EmitterSample;
+use super::{EmitterSample, FarLight};
 use glam::Vec3;
 use luch_image::Rgb;
 use luch_sampling::Frame;
@@ -22,6 +22,8 @@ struct SunDisc {
     /// Squared length of the chord from the middle to the rim: of a small disc the cosine has no digits left.
     squared_chord: f32,
     radiance: Rgb,
+    /// Sine and cosine of the angular radius.
+    angle: [f32; 2],
 }
 
 impl SunEmitter {
@@ -34,6 +36,7 @@ impl SunEmitter {
             squared_chord: 4.0 * half_chord * half_chord,
             // A facing surface gathers π sin² of a uniform disc.
             radiance: irradiance / (PI * sine * sine),
+            angle: [sine, libm::cosf(angular_radius)],
         });
         Self { frame: Frame::from_normal(-direction), irradiance, disc }
     }
@@ -49,13 +52,24 @@ impl SunEmitter {
     }
 
     /// Radiance and density of a direction that meets nothing.
-    pub(crate) fn toward(&self, direction: Vec3) -> Option<(Rgb, f32)> {
+    pub(crate) fn toward(&self, direction: Vec3) -> Option<FarLight> {
         let disc = self.disc.as_ref()?;
         let inside = direction.distance_squared(self.frame.normal) <= disc.squared_chord;
-        inside.then(|| (disc.radiance, 1.0 / disc.cone.solid_angle()))
+        inside.then(|| FarLight { radiance: disc.radiance, pdf: 1.0 / disc.cone.solid_angle() })
     }
 
-    pub(crate) fn power(&self, scene_radius: f32) -> f32 {
-        self.irradiance.luminance() * PI * scene_radius * scene_radius
+    /// Where the sun stands; unit length.
+    pub(crate) fn direction(&self) -> Vec3 {
+        self.frame.normal
+    }
+
+    /// Irradiance of a surface that faces it, as luminance.
+    pub(crate) fn irradiance(&self) -> f32 {
+        self.irradiance.luminance()
+    }
+
+    /// Sine and cosine of the angle under which its radius is seen.
+    pub(crate) fn angle(&self) -> [f32; 2] {
+        self.disc.as_ref().map_or([0.0, 1.0], |disc| disc.angle)
     }
 }

@@ -44,8 +44,8 @@ impl Integrator for Occlusion {
                 local.z = -local.z;
             }
             let direction = point.frame.to_world(local);
-            if point.is_honest(direction) {
-                rays_out.push(Ray { t_max: self.distance, ..point.ray_toward(direction) });
+            if point.exit().is_honest(direction) {
+                rays_out.push(Ray { t_max: self.distance, ..point.exit().ray_toward(direction) });
                 owners.push(i);
             } else {
                 radiance[i] = Rgb::BLACK;

@@ -32,7 +32,7 @@ impl PlainPathTracer {
             let Some(hit) =
                 world.geometry.nearest_hit(scene, &ray, opacity_key(sampler, purpose::opacity(depth)))
             else {
-                for light in world.lights.beyond(scene, ray.direction) {
+                for light in world.lights.beyond(scene, ray.origin, glam::Vec3::ZERO, ray.direction) {
                     radiance += throughput * light.radiance;
                 }
                 break;
@@ -47,13 +47,13 @@ impl PlainPathTracer {
             let outgoing = point.frame.to_local(point.outgoing);
             let Some(scattered) = bsdf.sample(outgoing, [u, v], lobe) else { break };
             let incoming = point.frame.to_world(scattered.incoming);
-            if !point.is_honest(incoming) {
+            if !point.exit().is_honest(incoming) {
                 break;
             }
             throughput *= scattered.weight();
             let Some(factor) = survive(depth, throughput, chance) else { break };
             throughput *= factor;
-            ray = point.ray_toward(incoming);
+            ray = point.exit().ray_toward(incoming);
         }
         Ok(radiance)
     }

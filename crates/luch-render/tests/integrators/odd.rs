@@ -160,6 +160,7 @@ pub(crate) fn everything() -> Scene {
     let gold = scene.add_material(Material::new(Surface::Conductor {
         reflectance: Reflectance::Metal(Metal::Gold),
         roughness: ScalarValue { factor: 0.6, ..ScalarValue::textured(colors, Channel::Green) },
+        compensated: true,
     }));
     let mut leaf = Material::diffuse(Rgb::new(0.3, 0.7, 0.2));
     leaf.opacity = Opacity::Blend { alpha: ScalarValue::textured(colors, Channel::Alpha) };

@@ -6,7 +6,7 @@
 //! Owen scrambling", 2020). The order is shuffled by the same scramble of the index, so that groups with different keys can
 //! be padded side by side. Nothing is tuned to a number of points, and all 32 bits of the index count.
 
-use super::sobol_table::{DIRECTIONS, REVERSED};
+use super::sobol_table::{DIRECTIONS, REVERSED, REVERSED_BITS};
 use crate::hash;
 
 /// Point `index` of the plain sequence (in natural, not Gray-code order) as fractions of 2³².
@@ -62,6 +62,47 @@ pub fn words(key: u64, index: u32) -> [u32; 4] {
         }
     }
     std::array::from_fn(|d| hash::laine_karras(point[d], seeds[d]).reverse_bits())
+}
+
+/// [`words`] of sixteen keys and indices, `[coordinate][lane]`: the same bits, by vector instructions where there are some.
+#[inline(always)]
+pub(crate) fn words_16(keys: &[u64; 16], indices: &[u32; 16]) -> [[u32; 16]; 4] {
+    let mut shuffled = [0u32; 16];
+    let mut seeds = [[0u32; 16]; 4];
+    for lane in 0..16 {
+        let [first, second] = [hash::word(keys[lane], 0), hash::word(keys[lane], 1)];
+        seeds[0][lane] = first as u32;
+        seeds[1][lane] = (first >> 32) as u32;
+        seeds[2][lane] = second as u32;
+        seeds[3][lane] = (second >> 32) as u32;
+        shuffled[lane] = hash::laine_karras(reverse(indices[lane]), keys[lane] as u32);
+    }
+    // Bit by bit instead of by table: no lane looks anything up.
+    let mut points = [[0u32; 16]; 4];
+    for (bit, columns) in REVERSED_BITS.iter().enumerate() {
+        for lane in 0..16 {
+            let mask = 0u32.wrapping_sub((shuffled[lane] >> bit) & 1);
+            for dimension in 0..4 {
+                points[dimension][lane] ^= columns[dimension] & mask;
+            }
+        }
+    }
+    for dimension in 0..4 {
+        for lane in 0..16 {
+            points[dimension][lane] =
+                reverse(hash::laine_karras(points[dimension][lane], seeds[dimension][lane]));
+        }
+    }
+    points
+}
+
+/// The bits of a word in the opposite order, by steps that vectors have.
+#[inline(always)]
+fn reverse(word: u32) -> u32 {
+    let word = (word >> 1 & 0x5555_5555) | (word & 0x5555_5555) << 1;
+    let word = (word >> 2 & 0x3333_3333) | (word & 0x3333_3333) << 2;
+    let word = (word >> 4 & 0x0f0f_0f0f) | (word & 0x0f0f_0f0f) << 4;
+    word.swap_bytes()
 }
 
 #[cfg(test)]

@@ -24,6 +24,23 @@ pub(super) const DIRECTIONS: [[u32; 4]; 32] = directions();
 /// holds the four highest bits, mirrored) and with *reversed* coordinates: between two scrambles nothing needs turning.
 pub(super) static REVERSED: [[[u32; 4]; 16]; 8] = reversed();
 
+/// `REVERSED_BITS[bit][dimension]`: the same for single bits of the reversed index.
+pub(super) static REVERSED_BITS: [[u32; 4]; 32] = reversed_bits();
+
+const fn reversed_bits() -> [[u32; 4]; 32] {
+    let mut table = [[0; 4]; 32];
+    let mut bit = 0;
+    while bit < 32 {
+        let mut d = 0;
+        while d < 4 {
+            table[bit][d] = DIRECTIONS[31 - bit][d].reverse_bits();
+            d += 1;
+        }
+        bit += 1;
+    }
+    table
+}
+
 const fn directions() -> [[u32; 4]; 32] {
     let mut table = [[0; 4]; 32];
     let mut bit = 0;

@@ -1,24 +1,13 @@
 //! Flat targets: the unit disc and the triangle.
 
-use std::f32::consts::{FRAC_1_PI, FRAC_PI_4};
-
+use crate::trig;
 use glam::{Vec2, Vec3};
+use std::f32::consts::FRAC_1_PI;
 
 /// A point of the unit disc, uniform by area: the concentric map of Shirley and Chiu (1997), in Cline's form.
-#[inline]
+#[inline(always)]
 pub fn disc(u: [f32; 2]) -> Vec2 {
-    let (x, y) = (2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0);
-    if x == 0.0 && y == 0.0 {
-        return Vec2::ZERO;
-    }
-    // Squares about the centre become circles; the angle runs along the longer coordinate's eighth.
-    if x.abs() > y.abs() {
-        let angle = FRAC_PI_4 * (y / x);
-        Vec2::new(x * libm::cosf(angle), x * libm::sinf(angle))
-    } else {
-        let angle = FRAC_PI_4 * (x / y);
-        Vec2::new(y * libm::sinf(angle), y * libm::cosf(angle))
-    }
+    Vec2::from_array(trig::concentric(2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0))
 }
 
 /// Density of [`disc`] per area: 1/π inside.

@@ -1,10 +1,9 @@
 //! Directions of the whole sphere and of the hemisphere about +Z.
 
-use std::f32::consts::{FRAC_1_PI, PI};
-
-use glam::Vec3;
-
 use super::planar::disc;
+use crate::trig;
+use glam::Vec3;
+use std::f32::consts::FRAC_1_PI;
 
 /// A direction of the hemisphere z ≥ 0, uniform by solid angle.
 #[inline]
@@ -25,7 +24,7 @@ pub fn hemisphere_pdf(direction: Vec3) -> f32 {
 /// A direction of the hemisphere z > 0 with density cos θ/π: a point of the disc lifted to the sphere (Malley).
 ///
 /// The height is never zero, so the density of a sample is positive.
-#[inline]
+#[inline(always)]
 pub fn cosine_hemisphere(u: [f32; 2]) -> Vec3 {
     let point = disc(u);
     // At the rim rounding could reach the horizon, where the density is zero.
@@ -44,8 +43,8 @@ pub fn sphere(u: [f32; 2]) -> Vec3 {
     let z = 1.0 - 2.0 * u[0];
     // 1 − z² without cancellation near the poles.
     let radius = 2.0 * (u[0] * (1.0 - u[0])).sqrt();
-    let angle = 2.0 * PI * u[1];
-    Vec3::new(radius * libm::cosf(angle), radius * libm::sinf(angle), z)
+    let [sine, cosine] = trig::sin_cos_turns(u[1]);
+    Vec3::new(radius * cosine, radius * sine, z)
 }
 
 /// Density of [`sphere`] per solid angle: 1/4π everywhere.

@@ -195,7 +195,7 @@ fn f8_what_absorbs_nothing_vanishes() {
     };
     let mirror = |roughness: f32| {
         let reflectance = Reflectance::Color(Rgb::WHITE.into());
-        Material::new(Surface::Conductor { reflectance, roughness: roughness.into() })
+        Material::new(Surface::Conductor { reflectance, roughness: roughness.into(), compensated: true })
     };
     for (name, shape) in convex() {
         for ior in [1.33, 1.5, 2.4, 0.7] {

@@ -6,15 +6,17 @@ use luch::render::PixelEstimate;
 use luch::sampling::{Estimate, Sequence};
 use luch::scene::{Filter, Integrator as Name};
 
-/// Pixels are independent randomisations of the samples: where all see the same, each is a replicate.
-const COLUMNS: u32 = 16;
-const ROWS: u32 = 8;
+/// Bundles of pixels are independent randomisations of the samples: where all see the same, each is a replicate.
+const COLUMNS: u32 = 32;
+const ROWS: u32 = 16;
+/// Pixels along a side of a bundle.
+const BUNDLE: u32 = 4;
 /// Samples of a pixel in the pilot, which chooses the size of the run and is thrown away.
 const PILOT: u64 = 32;
 /// Most samples of a pixel.
 const MOST: u64 = 1 << 14;
 /// Relative standard error that runs are planned for, and the one that is demanded.
-const PLANNED: f64 = 0.004;
+const PLANNED: f64 = 0.0034;
 const DEMANDED: f64 = 0.005;
 /// Largest distance from the truth in standard errors.
 const DISTANCE: f64 = 4.0;
@@ -59,7 +61,7 @@ pub(crate) fn render(
     film.read(|pixel, _| pixel).pixels().to_vec()
 }
 
-/// The first channel of a film whose pixels all see the same.
+/// The first channel of a film whose pixels all see the same, bundle by bundle.
 fn replicates(
     world: &World,
     camera: &Camera,
@@ -69,7 +71,15 @@ fn replicates(
     samples: u64,
 ) -> Estimate {
     let settings = settings(COLUMNS, ROWS, sequence, seed);
-    render(world, camera, &settings, way, samples).iter().map(|pixel| pixel.mean[0]).collect()
+    let pixels = render(world, camera, &settings, way, samples);
+    let bundles = (0..ROWS / BUNDLE).flat_map(|y| (0..COLUMNS / BUNDLE).map(move |x| (x, y)));
+    let mean = |(x, y): (u32, u32)| {
+        let places =
+            (0..BUNDLE * BUNDLE).map(|i| (y * BUNDLE + i / BUNDLE) * COLUMNS + x * BUNDLE + i % BUNDLE);
+        let sum: f64 = places.map(|place| pixels[place as usize].mean[0]).sum();
+        sum / f64::from(BUNDLE * BUNDLE)
+    };
+    bundles.map(mean).collect()
 }
 
 /// The radiance that `camera` sees, to the planned standard error.

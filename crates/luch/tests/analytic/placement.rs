@@ -73,7 +73,7 @@ fn a_placed_mesh_looks_like_one_in_place_mirrored_or_not() {
     let mesh = generate::torus(0.7, 0.3, 20, 10);
     let gold = || {
         let reflectance = Reflectance::Color(Rgb::new(0.9, 0.6, 0.3).into());
-        Material::new(Surface::Conductor { reflectance, roughness: 0.6.into() })
+        Material::new(Surface::Conductor { reflectance, roughness: 0.6.into(), compensated: true })
     };
     for mirrored in [false, true] {
         let placement = placement(mirrored);

@@ -130,7 +130,7 @@ fn wrongly_dark(mesh: TriangleMesh, toward_sun: Vec3) -> f64 {
         if point.frame.normal.dot(toward_sun) > 0.01 && point.geometric_normal.dot(toward_sun) > 0.001 {
             lit += 1;
             dark += u32::from(
-                world.geometry.nearest_hit(&world.scene, &point.ray_toward(toward_sun), 0).is_some(),
+                world.geometry.nearest_hit(&world.scene, &point.exit().ray_toward(toward_sun), 0).is_some(),
             );
         }
     }

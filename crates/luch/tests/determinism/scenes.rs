@@ -87,8 +87,11 @@ fn palette(scene: &mut Scene) -> Palette {
     let floor = scene.add_material(Material::new(Surface::Diffuse { color: floor }));
     let glass =
         scene.add_material(Material::new(Surface::Dielectric { ior: 1.5, roughness: 0.0.into(), tint }));
-    let gold =
-        scene.add_material(Material::new(Surface::Conductor { reflectance: gold, roughness: 0.3.into() }));
+    let gold = scene.add_material(Material::new(Surface::Conductor {
+        reflectance: gold,
+        roughness: 0.3.into(),
+        compensated: true,
+    }));
     let (leaf, plastic) = (scene.add_material(leaf), scene.add_material(plastic));
     let mixed = Surface::Mix { first: plastic, second: gold, weight: 0.4.into() };
     let mixed = scene.add_material(Material::new(mixed));

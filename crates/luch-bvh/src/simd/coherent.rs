@@ -1,0 +1,185 @@
+//! Sixteen rays through one tree together.
+//!
+//! A node is looked at once for all of them: boxes beside the [`Frustum`] are dropped eight at a time, the others are tested
+//! against all rays when their turn comes. Where few rays are left these go on alone.
+
+use super::accept::Accept;
+use super::frustum::Frustum;
+use super::lanes::Isa;
+use super::mesh::Mesh;
+use super::packet::Packet;
+use super::ray::Prepared;
+use super::walk::{SLACK, Stack};
+use crate::wide::{LEAF, MAX_WAITING};
+use crate::{Hit, Ray};
+
+/// As many rays go on alone, or fewer.
+const FEW: u32 = 2;
+
+/// What waits, and a stack for rays on their own.
+pub(super) struct Stacks {
+    distances: [f32; MAX_WAITING + SLACK],
+    /// Nodes times eight plus the number of a child.
+    children: [u32; MAX_WAITING + SLACK],
+    alone: Stack,
+}
+
+impl Stacks {
+    pub(super) fn new() -> Self {
+        Self {
+            distances: [0.0; MAX_WAITING + SLACK],
+            children: [0; MAX_WAITING + SLACK],
+            alone: Stack::new(),
+        }
+    }
+}
+
+/// Takes up to sixteen rays through a mesh of at least one node; false if they do not run the same way and nothing was done.
+#[inline(always)]
+pub(super) fn trace<I: Isa, A: Accept, const ANY: bool>(
+    mesh: &Mesh,
+    rays: &[Ray],
+    first: usize,
+    cull_back: bool,
+    accept: &mut A,
+    stacks: &mut Stacks,
+    answer: &mut impl FnMut(usize, Option<Hit>),
+) -> bool {
+    let mut packet = Packet::new::<I>(rays);
+    if packet.sound != 0 {
+        let Some(frustum) = Frustum::new::<I>(&packet, &mesh.tree().bounds()) else { return false };
+        let mut walk = Walk { mesh, rays, first, cull_back, accept, stacks, packet: &mut packet, frustum };
+        if walk.packet.agrees() {
+            walk.run::<I, ANY, true>();
+        } else {
+            walk.run::<I, ANY, false>();
+        }
+    }
+    for lane in 0..rays.len() {
+        answer(first + lane, packet.best(lane));
+    }
+    true
+}
+
+struct Walk<'a, A> {
+    mesh: &'a Mesh,
+    rays: &'a [Ray],
+    /// Number of the first ray in the batch.
+    first: usize,
+    cull_back: bool,
+    accept: &'a mut A,
+    stacks: &'a mut Stacks,
+    packet: &'a mut Packet,
+    frustum: Frustum,
+}
+
+impl<A: Accept> Walk<'_, A> {
+    #[inline(always)]
+    fn run<I: Isa, const ANY: bool, const AGREE: bool>(&mut self) {
+        let nodes = self.mesh.tree().nodes();
+        let root = self.mesh.tree().root();
+        if root & LEAF != 0 {
+            self.leaf::<I, ANY>(root, self.packet.sound);
+            return;
+        }
+        let mut height = 0;
+        let mut reach = self.packet.reach::<I>();
+        let mut current = root;
+        loop {
+            // SAFETY: `current` is a node; the depth of the tree bounds what waits.
+            unsafe {
+                let node = nodes.get_unchecked(current as usize);
+                let beside = self.frustum.beside::<I>(node);
+                let codes: [u32; 8] = std::array::from_fn(|child| current << 3 | child as u32);
+                let children = self.stacks.children.as_mut_ptr().add(height);
+                let distances = self.stacks.distances.as_mut_ptr().add(height);
+                I::push_sorted(beside.near, beside.met, &codes, distances, children);
+                height += super::lanes::Mask::bits(beside.met).count_ones() as usize;
+            }
+            loop {
+                if height == 0 {
+                    return;
+                }
+                height -= 1;
+                // SAFETY: what is below the top was written, and leads to a child of a node.
+                let (near, code) = unsafe {
+                    (
+                        *self.stacks.distances.get_unchecked(height),
+                        *self.stacks.children.get_unchecked(height),
+                    )
+                };
+                if near > reach {
+                    continue;
+                }
+                let node = unsafe { nodes.get_unchecked((code >> 3) as usize) };
+                let child = (code & 7) as usize;
+                let rays = self.packet.enter::<I, AGREE>(node, child);
+                if rays == 0 {
+                    continue;
+                }
+                let reference = node.children[child];
+                if rays.count_ones() <= FEW {
+                    self.alone::<I, ANY>(reference, rays);
+                    reach = self.packet.reach::<I>();
+                } else if reference & LEAF == 0 {
+                    current = reference;
+                    break;
+                } else if self.leaf::<I, ANY>(reference, rays) {
+                    reach = self.packet.reach::<I>();
+                }
+            }
+        }
+    }
+
+    /// Tests the triangles of a leaf; true if a bound has changed.
+    #[inline(always)]
+    fn leaf<I: Isa, const ANY: bool>(&mut self, reference: u32, rays: u32) -> bool {
+        let block = self.mesh.block((reference & !LEAF) as usize);
+        let mut changed = false;
+        let mut rays = rays;
+        for place in 0..block.count() {
+            let Some(mut found) = self.packet.triangle::<I>(block, place, rays, self.cull_back) else {
+                continue;
+            };
+            let primitive = block.primitive(place);
+            if !A::ALWAYS {
+                let asked = found.rays;
+                for lane in (0..16).filter(|lane| asked >> lane & 1 == 1) {
+                    if !self.accept.accept(self.first + lane, &found.hit(lane, primitive)) {
+                        found.rays &= !(1 << lane);
+                    }
+                }
+            }
+            if ANY {
+                self.packet.end::<I>(found.rays);
+                rays &= !found.rays;
+            } else {
+                self.packet.take::<I>(&found, primitive);
+            }
+            changed = true;
+        }
+        changed
+    }
+
+    /// Lets rays go on alone from a node or leaf.
+    #[inline(never)]
+    fn alone<I: Isa, const ANY: bool>(&mut self, from: u32, rays: u32) {
+        for lane in (0..16).filter(|lane| rays >> lane & 1 == 1) {
+            let Some(ray) = Prepared::new(&self.rays[lane]) else { continue };
+            let index = self.first + lane;
+            let accept = |hit: &Hit| self.accept.accept(index, hit);
+            let stack = &mut self.stacks.alone;
+            if ANY {
+                if self.mesh.any_from::<I>(from, &ray, stack, self.cull_back, accept) {
+                    self.packet.end::<I>(1 << lane);
+                }
+            } else {
+                let (bound, best) = (self.packet.bound[lane], self.packet.best(lane));
+                let hit = self.mesh.nearest_from::<I>(from, &ray, bound, best, stack, self.cull_back, accept);
+                if let Some(hit) = hit {
+                    self.packet.set_best(lane, &hit);
+                }
+            }
+        }
+    }
+}
