@@ -14,8 +14,8 @@ mod search;
 
 pub use geometry::Geometry;
 pub(crate) use placed::Placed;
-use search::{Any, Batch, Nearest};
 pub(crate) use search::bound_inside;
+use search::{Any, Batch, Nearest};
 
 use crate::build::Quality;
 use crate::simd::launch;

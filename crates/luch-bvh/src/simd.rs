@@ -52,7 +52,7 @@ mod walk;
 
 pub use level::{Level, Task, dispatch, dispatch_at};
 
-pub(crate) use accept::{Accept, All, Where};
+pub(crate) use accept::All;
 pub(crate) use batch::MeshBatch;
 pub(crate) use block::Block;
 pub(crate) use lanes::Isa;

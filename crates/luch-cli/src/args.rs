@@ -143,7 +143,7 @@ pub(crate) struct CompareArgs {
 #[derive(Args, Debug)]
 #[command(after_long_help = "Examples:\n  luch check scene.kdl\n  luch check model.glb --json")]
 pub(crate) struct CheckArgs {
-    /// A scene: .kdl, .gltf, .glb, .obj, .ply, .stl
+    /// A scene: .kdl, .gltf, .glb, .obj, .ply, .stl, .xml (Mitsuba 3)
     pub(crate) file: PathBuf,
     /// Print one JSON object
     #[arg(long)]

@@ -177,9 +177,11 @@ where
         let Self { scene, rays, coherence, mut filter, mut answer } = self;
         if let Some(triangles) = &scene.alone {
             let mesh = triangles.mesh();
-            let answer =
-                |index: usize, hit: Option<Hit>| answer(index, hit.map(|hit| InstanceHit { instance: 0, hit }));
-            MeshBatch::<_, _, ANY> { mesh, rays, cull_back: false, coherence, accept: All, answer }.run::<I>();
+            let answer = |index: usize, hit: Option<Hit>| {
+                answer(index, hit.map(|hit| InstanceHit { instance: 0, hit }))
+            };
+            MeshBatch::<_, _, ANY> { mesh, rays, cull_back: false, coherence, accept: All, answer }
+                .run::<I>();
         } else if rays.len() >= FEW
             && let Some(mut world) = World::new(scene, rays, &mut filter, &mut answer, ANY)
         {

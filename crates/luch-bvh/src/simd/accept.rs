@@ -21,15 +21,3 @@ impl Accept for All {
         true
     }
 }
-
-/// Those count for which the function is true.
-pub(crate) struct Where<F>(pub(crate) F);
-
-impl<F: FnMut(usize, &Hit) -> bool> Accept for Where<F> {
-    const ALWAYS: bool = false;
-
-    #[inline(always)]
-    fn accept(&mut self, ray: usize, hit: &Hit) -> bool {
-        (self.0)(ray, hit)
-    }
-}

@@ -224,8 +224,7 @@ impl Block {
         let splat = I::Four::splat;
         let boxes = self.boxes::<I>();
         let (mut near, mut far) = (splat(ray.t_min), splat(ray.t_max));
-        for axis in 0..3 {
-            let [low, high] = boxes[axis];
+        for (axis, [low, high]) in boxes.into_iter().enumerate() {
             let backward = I::Four::mask(if ray.is_backward(axis) { 15 } else { 0 });
             let first = I::Four::select(backward, high, low);
             let last = I::Four::select(backward, low, high);

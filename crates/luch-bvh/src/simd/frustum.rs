@@ -10,6 +10,8 @@
 //! rounding of a few units in the last place; all the numbers here together are off by some 2⁻²⁰ of the largest coordinate,
 //! for slopes up to [`STEEPEST`]. The chords are moved outward by [`MARGIN`] of it.
 
+#![expect(clippy::neg_cmp_op_on_partial_ord, reason = "what is not a number must fail the comparison")]
+
 use super::lanes::{Isa, Lanes};
 use super::packet::Packet;
 use crate::Aabb;

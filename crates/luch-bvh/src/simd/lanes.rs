@@ -8,12 +8,6 @@ pub(crate) trait Mask:
 {
     /// Lane `i` as bit `i`; all higher bits zero.
     fn bits(self) -> u32;
-
-    /// Whether any lane says yes.
-    #[inline(always)]
-    fn any(self) -> bool {
-        self.bits() != 0
-    }
 }
 
 /// `N` numbers side by side. All operations round as the scalar ones do, none is fused.

@@ -43,6 +43,7 @@ impl Mesh {
 
     /// The nearest hit below `from` at or before `bound`, better than `best`. The bound only prunes: it changes no hit, as
     /// the ray's own end might.
+    #[expect(clippy::too_many_arguments, reason = "the state of a walk that another began")]
     #[inline(always)]
     pub(super) fn nearest_from<I: Isa>(
         &self,

@@ -263,8 +263,7 @@ impl Packet {
         // Rule 2 of the theorem, and what is left of rule 3.
         let boxes = block.boxes::<I>();
         let (mut near, mut far) = (load(&self.t_min), load(&self.t_max));
-        for axis in 0..3 {
-            let [low, high] = boxes[axis];
+        for (axis, [low, high]) in boxes.into_iter().enumerate() {
             let backward = I::Sixteen::mask(self.backward[axis]);
             let (low, high) = (splat(low.to_array()[place]), splat(high.to_array()[place]));
             let first = I::Sixteen::select(backward, high, low);

@@ -49,9 +49,9 @@ impl Prepared {
         let inverse = [1.0 / direction[0], 1.0 / direction[1], 1.0 / direction[2]];
         let shear = [across_x / along, across_y / along, 1.0 / along];
         // Whatever is not finite leaves a difference that is not zero.
-        let finite = [origin, direction].iter().flatten().fold(0.0, |sum, value| sum + (value - value));
+        let finite = [origin, direction].iter().flatten().fold(0.0, |sum, value| sum + value * 0.0);
         let length = shear[2].abs();
-        let sound = finite == 0.0 && 1.0 / LONGEST <= length && length <= f32::MAX && t_min <= t_max;
+        let sound = finite == 0.0 && (1.0 / LONGEST..=f32::MAX).contains(&length) && t_min <= t_max;
         if !sound {
             return None;
         }

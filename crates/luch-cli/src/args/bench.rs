@@ -35,7 +35,7 @@ pub(crate) enum BenchVerb {
     after_long_help = "Examples:\n  luch bench rays bunny.obj\n  luch bench rays bunny.tri --rays out/bunny --quality all --threads 1,2\n  luch bench rays dragon.ply --fov 24 --write out/dragon   (for other programs to trace)"
 )]
 pub(crate) struct RaysArgs {
-    /// A mesh or scene: .tri, .kdl, .gltf, .glb, .obj, .ply, .stl; of a scene all its meshes
+    /// A mesh or scene: .tri, .kdl, .gltf, .glb, .obj, .ply, .stl, .xml (Mitsuba 3); of a scene all its meshes
     pub(crate) mesh: PathBuf,
     /// Trace the rays in PREFIX.primary.rays, .diffuse.rays, .shuffled.rays and .shadow.rays, and compare with PREFIX.SET.hits
     #[arg(long, value_name = "PREFIX", conflicts_with_all = ["eye", "at", "up", "fov", "size", "write"])]

@@ -24,7 +24,7 @@ use std::time::Duration;
 #[derive(Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub(crate) struct RenderArgs {
-    /// A scene: .kdl, .gltf, .glb, .obj, .ply, .stl; may be left out with --resume FILM
+    /// A scene: .kdl, .gltf, .glb, .obj, .ply, .stl, .xml (Mitsuba 3); may be left out with --resume FILM
     pub(crate) file: Option<PathBuf>,
     /// What to write: .png, .jpg, .exr, .hdr, .pfm, .npy, .luch (may be given several times) [default: the scene's name with .png, in this folder]
     #[arg(short, long, value_name = "OUT")]

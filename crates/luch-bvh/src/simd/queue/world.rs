@@ -46,7 +46,13 @@ pub(crate) struct State<'a> {
 
 impl<'a, F, R> World<'a, F, R> {
     /// `None` for a scene with more instances than an entrance can number. With `any` the first hit ends a ray.
-    pub(crate) fn new(scene: &'a SceneTree, rays: &'a [Ray], accept: F, answer: R, any: bool) -> Option<Self> {
+    pub(crate) fn new(
+        scene: &'a SceneTree,
+        rays: &'a [Ray],
+        accept: F,
+        answer: R,
+        any: bool,
+    ) -> Option<Self> {
         let most = (RETURN - ENTRANCE) as usize;
         let fits = scene.placed().len() < most && scene.tree().leaves() < most;
         fits.then_some(Self { scene, rays, accept, answer, any })
