@@ -14,11 +14,9 @@ mod search;
 
 pub use geometry::Geometry;
 pub(crate) use placed::Placed;
-pub(crate) use search::bound_inside;
-use search::{Any, Batch, Nearest};
+pub(crate) use search::{Filter, bound_inside};
 
 use crate::build::Quality;
-use crate::simd::launch;
 use crate::tree::Tree;
 use crate::{Aabb, Bvh, Coherence, Hit, Ray, TriangleBvh};
 use glam::Affine3A;
@@ -105,9 +103,9 @@ impl SceneTree {
     pub fn nearest_filtered(
         &self,
         ray: &Ray,
-        filter: impl FnMut(&InstanceHit) -> bool,
+        mut filter: impl FnMut(&InstanceHit) -> bool,
     ) -> Option<InstanceHit> {
-        launch(Nearest { scene: self, ray, filter })
+        search::nearest(self, ray, &mut |_, hit| filter(hit))
     }
 
     /// Whether the ray meets anything.
@@ -116,8 +114,8 @@ impl SceneTree {
     }
 
     /// Whether the ray meets anything that counts; `filter` as in [`SceneTree::nearest_filtered`].
-    pub fn any_filtered(&self, ray: &Ray, filter: impl FnMut(&InstanceHit) -> bool) -> bool {
-        launch(Any { scene: self, ray, filter })
+    pub fn any_filtered(&self, ray: &Ray, mut filter: impl FnMut(&InstanceHit) -> bool) -> bool {
+        search::any(self, ray, &mut |_, hit| filter(hit))
     }
 
     /// [`SceneTree::nearest`] of each ray, into the place of the same index; on the calling thread. Where the slices differ
@@ -137,11 +135,10 @@ impl SceneTree {
         rays: &[Ray],
         hits: &mut [Option<InstanceHit>],
         coherence: Coherence,
-        filter: impl FnMut(usize, &InstanceHit) -> bool,
+        mut filter: impl FnMut(usize, &InstanceHit) -> bool,
     ) {
         let rays = &rays[..rays.len().min(hits.len())];
-        let answer = |index: usize, hit| hits[index] = hit;
-        launch(Batch::<_, _, false> { scene: self, rays, coherence, filter, answer });
+        search::nearest_batch(self, rays, hits, coherence, &mut filter);
     }
 
     /// [`SceneTree::any_filtered`] of each ray; the filter is also told the index of the ray.
@@ -150,11 +147,10 @@ impl SceneTree {
         rays: &[Ray],
         met: &mut [bool],
         coherence: Coherence,
-        filter: impl FnMut(usize, &InstanceHit) -> bool,
+        mut filter: impl FnMut(usize, &InstanceHit) -> bool,
     ) {
         let rays = &rays[..rays.len().min(met.len())];
-        let answer = |index: usize, hit: Option<InstanceHit>| met[index] = hit.is_some();
-        launch(Batch::<_, _, true> { scene: self, rays, coherence, filter, answer });
+        search::any_batch(self, rays, met, coherence, &mut filter);
     }
 
     /// The tree over the instances that have a box.

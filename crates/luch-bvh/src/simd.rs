@@ -32,7 +32,6 @@
 //! ```
 #![allow(unsafe_code)]
 
-mod accept;
 #[cfg(target_arch = "x86_64")]
 mod avx2;
 #[cfg(target_arch = "x86_64")]
@@ -52,8 +51,7 @@ mod walk;
 
 pub use level::{Level, Task, dispatch, dispatch_at};
 
-pub(crate) use accept::All;
-pub(crate) use batch::MeshBatch;
+pub(crate) use batch::{any_in_mesh, nearest_in_mesh};
 pub(crate) use block::Block;
 pub(crate) use lanes::Isa;
 pub(crate) use level::{Kernel, launch};

@@ -1,7 +1,7 @@
 //! A tree over triangles, each kept where its leaf finds it.
 
 use crate::build::{Quality, Reference, build_wide};
-use crate::simd::{All, Block, Isa, Kernel, Mesh, MeshBatch, Stack, launch};
+use crate::simd::{Block, Isa, Kernel, Mesh, Stack, any_in_mesh, launch, nearest_in_mesh};
 use crate::tree::{Statistics, Tree};
 use crate::triangle::{Triangle, TriangleClip, nearest_point};
 use crate::{Aabb, Coherence, Hit, NearestPoint, Ray};
@@ -48,57 +48,48 @@ impl TriangleBvh {
 
     /// The nearest hit from either side; of equally near ones that of the lowest triangle.
     pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
-        self.nearest_where(ray, false, |_| true)
+        nearest(&self.mesh, ray, false, None)
     }
 
     /// The nearest hit from outside: triangles that turn their back are passed through.
     ///
     /// Right only for closed meshes seen from outside and through nothing transparent.
     pub fn nearest_culled(&self, ray: &Ray) -> Option<Hit> {
-        self.nearest_where(ray, true, |_| true)
+        nearest(&self.mesh, ray, true, None)
     }
 
     /// The nearest hit that `accept` lets count; the ray goes on through the others. `cull_back` as in
     /// [`TriangleBvh::nearest_culled`]. `accept` must be a pure function; it may be asked about any hit, in any order.
-    pub fn nearest_where(&self, ray: &Ray, cull_back: bool, accept: impl FnMut(&Hit) -> bool) -> Option<Hit> {
-        launch(Nearest { mesh: &self.mesh, ray, cull_back, accept })
+    pub fn nearest_where(
+        &self,
+        ray: &Ray,
+        cull_back: bool,
+        mut accept: impl FnMut(&Hit) -> bool,
+    ) -> Option<Hit> {
+        nearest(&self.mesh, ray, cull_back, Some(&mut accept))
     }
 
     /// Whether the ray meets any triangle, from either side.
     pub fn any(&self, ray: &Ray) -> bool {
-        self.any_where(ray, false, |_| true)
+        any(&self.mesh, ray, false, None)
     }
 
     /// Whether the ray meets any triangle that `accept` lets count; see [`TriangleBvh::nearest_where`].
-    pub fn any_where(&self, ray: &Ray, cull_back: bool, accept: impl FnMut(&Hit) -> bool) -> bool {
-        launch(Any { mesh: &self.mesh, ray, cull_back, accept })
+    pub fn any_where(&self, ray: &Ray, cull_back: bool, mut accept: impl FnMut(&Hit) -> bool) -> bool {
+        any(&self.mesh, ray, cull_back, Some(&mut accept))
     }
 
     /// [`TriangleBvh::nearest`] of each ray, into the place of the same index; on the calling thread. Where the slices
     /// differ in length the rest of the longer one is left alone.
     pub fn nearest_batch(&self, rays: &[Ray], hits: &mut [Option<Hit>], coherence: Coherence) {
         let rays = &rays[..rays.len().min(hits.len())];
-        launch(MeshBatch::<_, _, false> {
-            mesh: &self.mesh,
-            rays,
-            cull_back: false,
-            coherence,
-            accept: All,
-            answer: |index: usize, hit| hits[index] = hit,
-        });
+        nearest_in_mesh(&self.mesh, rays, coherence, &mut |index, hit| hits[index] = hit);
     }
 
     /// [`TriangleBvh::any`] of each ray; as [`TriangleBvh::nearest_batch`].
     pub fn any_batch(&self, rays: &[Ray], met: &mut [bool], coherence: Coherence) {
         let rays = &rays[..rays.len().min(met.len())];
-        launch(MeshBatch::<_, _, true> {
-            mesh: &self.mesh,
-            rays,
-            cull_back: false,
-            coherence,
-            accept: All,
-            answer: |index: usize, hit: Option<Hit>| met[index] = hit.is_some(),
-        });
+        any_in_mesh(&self.mesh, rays, coherence, &mut |index, hit| met[index] = hit.is_some());
     }
 
     /// The point of the mesh nearest to `point`, not farther than `max_distance`.
@@ -132,32 +123,49 @@ impl TriangleBvh {
     }
 }
 
-struct Nearest<'a, F> {
+/// What lets a hit count. It is asked through a `dyn`, so that the kernels are compiled once, in this crate; `None` for all.
+type Accept<'f> = Option<&'f mut dyn FnMut(&Hit) -> bool>;
+
+#[inline(never)]
+fn nearest<'a>(mesh: &'a Mesh, ray: &'a Ray, cull_back: bool, accept: Accept<'a>) -> Option<Hit> {
+    launch(Nearest { mesh, ray, cull_back, accept })
+}
+
+#[inline(never)]
+fn any<'a>(mesh: &'a Mesh, ray: &'a Ray, cull_back: bool, accept: Accept<'a>) -> bool {
+    launch(Any { mesh, ray, cull_back, accept })
+}
+
+struct Nearest<'a> {
     mesh: &'a Mesh,
     ray: &'a Ray,
     cull_back: bool,
-    accept: F,
+    accept: Accept<'a>,
 }
 
-impl<F: FnMut(&Hit) -> bool> Kernel for Nearest<'_, F> {
+impl Kernel for Nearest<'_> {
     type Output = Option<Hit>;
     #[inline(always)]
     fn run<I: Isa>(self) -> Option<Hit> {
-        self.mesh.nearest::<I>(self.ray, f32::INFINITY, &mut Stack::new(), self.cull_back, self.accept)
+        let Self { mesh, ray, cull_back, mut accept } = self;
+        let accept = |hit: &Hit| accept.as_mut().is_none_or(|accept| accept(hit));
+        mesh.nearest::<I>(ray, f32::INFINITY, &mut Stack::new(), cull_back, accept)
     }
 }
 
-struct Any<'a, F> {
+struct Any<'a> {
     mesh: &'a Mesh,
     ray: &'a Ray,
     cull_back: bool,
-    accept: F,
+    accept: Accept<'a>,
 }
 
-impl<F: FnMut(&Hit) -> bool> Kernel for Any<'_, F> {
+impl Kernel for Any<'_> {
     type Output = bool;
     #[inline(always)]
     fn run<I: Isa>(self) -> bool {
-        self.mesh.any::<I>(self.ray, &mut Stack::new(), self.cull_back, self.accept)
+        let Self { mesh, ray, cull_back, mut accept } = self;
+        let accept = |hit: &Hit| accept.as_mut().is_none_or(|accept| accept(hit));
+        mesh.any::<I>(ray, &mut Stack::new(), cull_back, accept)
     }
 }

@@ -1,8 +1,61 @@
-//! One ray through both levels.
+//! One ray through both levels, and the queries of a scene.
+//!
+//! What a caller brings is asked through a `dyn`, and only about hits of instances that are filtered. So the kernels are
+//! compiled once, in this crate, and not again for every caller.
 
 use super::{InstanceHit, SceneTree};
-use crate::simd::{All, Isa, Kernel, MeshBatch, Prepared, Stack, World, trace, walk};
+use crate::simd::{Isa, Kernel, Prepared, Stack, World, any_in_mesh, launch, nearest_in_mesh, trace, walk};
 use crate::{Coherence, Hit, Interval, Ray};
+
+/// Told the index of a ray and a hit of it: whether the hit counts.
+pub(crate) type Filter<'f> = dyn FnMut(usize, &InstanceHit) -> bool + 'f;
+
+/// See [`SceneTree::nearest_filtered`].
+#[inline(never)]
+pub(super) fn nearest(scene: &SceneTree, ray: &Ray, filter: &mut Filter) -> Option<InstanceHit> {
+    launch(Nearest { scene, ray, filter })
+}
+
+/// See [`SceneTree::any_filtered`].
+#[inline(never)]
+pub(super) fn any(scene: &SceneTree, ray: &Ray, filter: &mut Filter) -> bool {
+    launch(Any { scene, ray, filter })
+}
+
+/// See [`SceneTree::nearest_filtered_batch`]; there are at least as many `hits` as `rays`.
+#[inline(never)]
+pub(super) fn nearest_batch(
+    scene: &SceneTree,
+    rays: &[Ray],
+    hits: &mut [Option<InstanceHit>],
+    coherence: Coherence,
+    filter: &mut Filter,
+) {
+    if let Some(triangles) = &scene.alone {
+        let mut answer =
+            |index: usize, hit: Option<Hit>| hits[index] = hit.map(|hit| InstanceHit { instance: 0, hit });
+        return nearest_in_mesh(triangles.mesh(), rays, coherence, &mut answer);
+    }
+    let answer = |index: usize, hit| hits[index] = hit;
+    launch(Batch::<_, false> { scene, rays, filter, answer });
+}
+
+/// See [`SceneTree::any_filtered_batch`]; there are at least as many places in `met` as `rays`.
+#[inline(never)]
+pub(super) fn any_batch(
+    scene: &SceneTree,
+    rays: &[Ray],
+    met: &mut [bool],
+    coherence: Coherence,
+    filter: &mut Filter,
+) {
+    if let Some(triangles) = &scene.alone {
+        let mut answer = |index: usize, hit: Option<Hit>| met[index] = hit.is_some();
+        return any_in_mesh(triangles.mesh(), rays, coherence, &mut answer);
+    }
+    let answer = |index: usize, hit: Option<InstanceHit>| met[index] = hit.is_some();
+    launch(Batch::<_, true> { scene, rays, filter, answer });
+}
 
 /// One stack for each level.
 pub(super) struct Stacks {
@@ -20,9 +73,10 @@ impl SceneTree {
     #[inline(always)]
     pub(super) fn search<I: Isa>(
         &self,
+        index: usize,
         ray: &Ray,
         stacks: &mut Stacks,
-        mut filter: impl FnMut(&InstanceHit) -> bool,
+        filter: &mut Filter,
     ) -> Option<InstanceHit> {
         if let Some(triangles) = &self.alone {
             let mesh = triangles.mesh();
@@ -35,7 +89,8 @@ impl SceneTree {
         let mut best: Option<InstanceHit> = None;
         let Stacks { world, object } = stacks;
         let mut visit = |instance: u32, interval: Interval, mut bound: f32| {
-            if let Some(hit) = self.instance_hit::<I>(instance, ray, interval, bound, object, &mut filter)
+            let accept = |hit: &InstanceHit| filter(index, hit);
+            if let Some(hit) = self.instance_hit::<I>(instance, ray, interval, bound, object, accept)
                 && hit.precedes(best.as_ref(), bound)
             {
                 bound = hit.hit.t;
@@ -68,7 +123,7 @@ impl SceneTree {
         interval: Interval,
         bound: f32,
         stack: &mut Stack,
-        filter: &mut impl FnMut(&InstanceHit) -> bool,
+        mut filter: impl FnMut(&InstanceHit) -> bool,
     ) -> Option<InstanceHit> {
         let placed = self.placed[instance as usize].as_ref()?;
         let geometry = &self.geometries[placed.geometry as usize];
@@ -83,9 +138,10 @@ impl SceneTree {
     #[inline(always)]
     pub(super) fn meets<I: Isa>(
         &self,
+        index: usize,
         ray: &Ray,
         stacks: &mut Stacks,
-        mut filter: impl FnMut(&InstanceHit) -> bool,
+        filter: &mut Filter,
     ) -> bool {
         if let Some(triangles) = &self.alone {
             return triangles.mesh().any::<I>(ray, &mut stacks.object, false, |_| true);
@@ -99,7 +155,7 @@ impl SceneTree {
             let ray = placed.toward_object(ray);
             geometry.any::<I>(&ray, object, placed.cull_back, |hit| {
                 let of_world = InstanceHit { instance, hit: Hit { t: interval.clamp(hit.t), ..*hit } };
-                !placed.filtered || filter(&of_world)
+                !placed.filtered || filter(index, &of_world)
             })
         };
         if self.unbounded.iter().any(|&instance| met(instance, whole)) {
@@ -125,77 +181,64 @@ pub(crate) fn bound_inside(interval: &Interval, bound: f32) -> f32 {
 }
 
 /// The nearest hit of one ray.
-pub(super) struct Nearest<'a, F> {
-    pub(super) scene: &'a SceneTree,
-    pub(super) ray: &'a Ray,
-    pub(super) filter: F,
+struct Nearest<'a, 'f> {
+    scene: &'a SceneTree,
+    ray: &'a Ray,
+    filter: &'a mut Filter<'f>,
 }
 
-impl<F: FnMut(&InstanceHit) -> bool> Kernel for Nearest<'_, F> {
+impl Kernel for Nearest<'_, '_> {
     type Output = Option<InstanceHit>;
     #[inline(always)]
     fn run<I: Isa>(self) -> Option<InstanceHit> {
-        self.scene.search::<I>(self.ray, &mut Stacks::new(), self.filter)
+        self.scene.search::<I>(0, self.ray, &mut Stacks::new(), self.filter)
     }
 }
 
 /// Whether one ray meets anything.
-pub(super) struct Any<'a, F> {
-    pub(super) scene: &'a SceneTree,
-    pub(super) ray: &'a Ray,
-    pub(super) filter: F,
+struct Any<'a, 'f> {
+    scene: &'a SceneTree,
+    ray: &'a Ray,
+    filter: &'a mut Filter<'f>,
 }
 
-impl<F: FnMut(&InstanceHit) -> bool> Kernel for Any<'_, F> {
+impl Kernel for Any<'_, '_> {
     type Output = bool;
     #[inline(always)]
     fn run<I: Isa>(self) -> bool {
-        self.scene.meets::<I>(self.ray, &mut Stacks::new(), self.filter)
+        self.scene.meets::<I>(0, self.ray, &mut Stacks::new(), self.filter)
     }
 }
 
 /// Every ray of a batch; `ANY` ends each at the first hit, of which nothing but that it is there is told.
-pub(super) struct Batch<'a, F, R, const ANY: bool> {
-    pub(super) scene: &'a SceneTree,
-    pub(super) rays: &'a [Ray],
-    pub(super) coherence: Coherence,
-    pub(super) filter: F,
-    pub(super) answer: R,
+struct Batch<'a, 'f, R, const ANY: bool> {
+    scene: &'a SceneTree,
+    rays: &'a [Ray],
+    filter: &'a mut Filter<'f>,
+    answer: R,
 }
 
 /// Fewer rays are not worth a queue.
 const FEW: usize = 8;
 
-impl<F, R, const ANY: bool> Kernel for Batch<'_, F, R, ANY>
-where
-    F: FnMut(usize, &InstanceHit) -> bool,
-    R: FnMut(usize, Option<InstanceHit>),
-{
+impl<R: FnMut(usize, Option<InstanceHit>), const ANY: bool> Kernel for Batch<'_, '_, R, ANY> {
     type Output = ();
     #[inline(always)]
     fn run<I: Isa>(self) {
-        let Self { scene, rays, coherence, mut filter, mut answer } = self;
-        if let Some(triangles) = &scene.alone {
-            let mesh = triangles.mesh();
-            let answer = |index: usize, hit: Option<Hit>| {
-                answer(index, hit.map(|hit| InstanceHit { instance: 0, hit }))
-            };
-            MeshBatch::<_, _, ANY> { mesh, rays, cull_back: false, coherence, accept: All, answer }
-                .run::<I>();
-        } else if rays.len() >= FEW
-            && let Some(mut world) = World::new(scene, rays, &mut filter, &mut answer, ANY)
+        let Self { scene, rays, filter, mut answer } = self;
+        if rays.len() >= FEW
+            && let Some(mut world) = World::new(scene, rays, &mut *filter, &mut answer, ANY)
         {
             trace::<I, _, ANY>(&mut world, rays, 0..rays.len());
         } else {
             let mut stacks = Stacks::new();
             for (index, ray) in rays.iter().enumerate() {
-                let filter = |hit: &InstanceHit| filter(index, hit);
                 let hit = if ANY {
                     let nothing = Hit { t: 0.0, u: 0.0, v: 0.0, primitive: 0 };
-                    let met = scene.meets::<I>(ray, &mut stacks, filter);
+                    let met = scene.meets::<I>(index, ray, &mut stacks, filter);
                     met.then_some(InstanceHit { instance: 0, hit: nothing })
                 } else {
-                    scene.search::<I>(ray, &mut stacks, filter)
+                    scene.search::<I>(index, ray, &mut stacks, filter)
                 };
                 answer(index, hit);
             }

@@ -4,6 +4,7 @@
 //! that is what makes every intrinsic below sound to call.
 
 use super::lanes::{Isa, Lanes, Mask};
+use super::level::{Task, run_avx2};
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Not, Sub};
 
@@ -338,6 +339,12 @@ impl Isa for Avx2 {
                 _mm_cmpeq_epi32(_mm_loadu_si128(numbers.as_ptr().cast()), _mm_set1_epi32(value as i32));
             _mm_movemask_ps(_mm_castsi128_ps(same)) as u32 ^ 15
         }
+    }
+
+    #[inline(always)]
+    fn call<T: Task>(task: T) -> T::Output {
+        // SAFETY: the level is there.
+        unsafe { run_avx2(task) }
     }
 
     #[inline(always)]

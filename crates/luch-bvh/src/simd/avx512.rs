@@ -4,6 +4,7 @@
 //! that is what makes every intrinsic below sound to call.
 
 use super::lanes::{Isa, Lanes, Mask};
+use super::level::{Task, run_avx512};
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Not, Sub};
 
@@ -267,6 +268,12 @@ impl Isa for Avx512 {
             let numbers = _mm_loadu_si128(numbers.as_ptr().cast());
             u32::from(_mm_cmpneq_epi32_mask(numbers, _mm_set1_epi32(value as i32)))
         }
+    }
+
+    #[inline(always)]
+    fn call<T: Task>(task: T) -> T::Output {
+        // SAFETY: the level is there.
+        unsafe { run_avx512(task) }
     }
 
     #[inline(always)]

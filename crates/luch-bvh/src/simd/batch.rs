@@ -1,9 +1,8 @@
-//! Which kernel takes a batch.
+//! Which kernel takes a batch of rays through a mesh.
 
-use super::accept::Accept;
 use super::coherent;
 use super::lanes::Isa;
-use super::level::Kernel;
+use super::level::{Kernel, launch};
 use super::mesh::Mesh;
 use super::queue::{Alone, trace};
 use super::walk::Stack;
@@ -15,54 +14,68 @@ const FEW: usize = 8;
 /// Rays of a packet.
 const PACKET: usize = 16;
 
-/// Every ray of a batch through a mesh; `ANY` ends each at the first hit, of which nothing but that it is there is told.
-pub(crate) struct MeshBatch<'a, A, R, const ANY: bool> {
-    pub(crate) mesh: &'a Mesh,
-    pub(crate) rays: &'a [Ray],
-    pub(crate) cull_back: bool,
-    pub(crate) coherence: Coherence,
-    pub(crate) accept: A,
-    pub(crate) answer: R,
+/// Told the index of a ray and the end of its journey.
+pub(crate) type Answer<'f> = dyn FnMut(usize, Option<Hit>) + 'f;
+
+/// The nearest hit of every ray, from either side.
+#[inline(never)]
+pub(crate) fn nearest_in_mesh(mesh: &Mesh, rays: &[Ray], coherence: Coherence, answer: &mut Answer) {
+    launch(MeshBatch::<false> { mesh, rays, coherence, answer });
 }
 
-impl<A: Accept, R: FnMut(usize, Option<Hit>), const ANY: bool> Kernel for MeshBatch<'_, A, R, ANY> {
+/// Any hit of every ray, of which nothing but that it is there is told.
+#[inline(never)]
+pub(crate) fn any_in_mesh(mesh: &Mesh, rays: &[Ray], coherence: Coherence, answer: &mut Answer) {
+    launch(MeshBatch::<true> { mesh, rays, coherence, answer });
+}
+
+/// Every ray of a batch through a mesh; `ANY` ends each at the first hit.
+struct MeshBatch<'a, 'f, const ANY: bool> {
+    mesh: &'a Mesh,
+    rays: &'a [Ray],
+    coherence: Coherence,
+    answer: &'a mut Answer<'f>,
+}
+
+impl<const ANY: bool> Kernel for MeshBatch<'_, '_, ANY> {
     type Output = ();
 
     #[inline(always)]
-    fn run<I: Isa>(mut self) {
-        let Self { mesh, rays, cull_back, .. } = self;
+    fn run<I: Isa>(self) {
+        let Self { mesh, rays, coherence, answer } = self;
         if mesh.tree().root() == EMPTY {
-            (0..rays.len()).for_each(|index| (self.answer)(index, None));
-        } else if rays.len() < FEW {
+            (0..rays.len()).for_each(|index| answer(index, None));
+            return;
+        }
+        if rays.len() < FEW {
             let mut stack = Stack::new();
             for (index, ray) in rays.iter().enumerate() {
-                let accept = |hit: &Hit| self.accept.accept(index, hit);
                 let hit = if ANY {
-                    let met = mesh.any::<I>(ray, &mut stack, cull_back, accept);
+                    let met = mesh.any::<I>(ray, &mut stack, false, |_| true);
                     met.then_some(Hit { t: 0.0, u: 0.0, v: 0.0, primitive: 0 })
                 } else {
-                    mesh.nearest::<I>(ray, f32::INFINITY, &mut stack, cull_back, accept)
+                    mesh.nearest::<I>(ray, f32::INFINITY, &mut stack, false, |_| true)
                 };
-                (self.answer)(index, hit);
+                answer(index, hit);
             }
-        } else if self.coherence == Coherence::Incoherent {
-            let mut space = Alone { mesh, cull_back, accept: self.accept, answer: self.answer };
-            trace::<I, _, ANY>(&mut space, rays, 0..rays.len());
+            return;
+        }
+        let mut others = Vec::new();
+        if coherence == Coherence::Incoherent {
+            others.push(0..rays.len());
         } else {
             // Packets whose rays do not run the same way after all are left to the queue.
-            let mut others = Vec::new();
             let mut stacks = coherent::Stacks::new();
             for (packet, rays) in rays.chunks(PACKET).enumerate() {
                 let first = packet * PACKET;
-                let (accept, answer) = (&mut self.accept, &mut self.answer);
-                if !coherent::trace::<I, A, ANY>(mesh, rays, first, cull_back, accept, &mut stacks, answer) {
+                if !coherent::trace::<I, ANY>(mesh, rays, first, &mut stacks, answer) {
                     others.push(first..first + rays.len());
                 }
             }
-            if !others.is_empty() {
-                let mut space = Alone { mesh, cull_back, accept: self.accept, answer: self.answer };
-                trace::<I, _, ANY>(&mut space, rays, others.into_iter().flatten());
-            }
+        }
+        if !others.is_empty() {
+            let mut space = Alone { mesh, answer };
+            trace::<I, _, ANY>(&mut space, rays, others.into_iter().flatten());
         }
     }
 }

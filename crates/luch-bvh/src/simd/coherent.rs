@@ -3,15 +3,17 @@
 //! A node is looked at once for all of them: boxes beside the [`Frustum`] are dropped eight at a time, the others are tested
 //! against all rays when their turn comes. Where few rays are left these go on alone.
 
-use super::accept::Accept;
+use super::batch::Answer;
 use super::frustum::Frustum;
 use super::lanes::Isa;
+use super::level::Task;
 use super::mesh::Mesh;
 use super::packet::Packet;
 use super::ray::Prepared;
 use super::walk::{SLACK, Stack};
+use crate::Ray;
 use crate::wide::{LEAF, MAX_WAITING};
-use crate::{Hit, Ray};
+use std::marker::PhantomData;
 
 /// As many rays go on alone, or fewer.
 const FEW: u32 = 2;
@@ -36,19 +38,17 @@ impl Stacks {
 
 /// Takes up to sixteen rays through a mesh of at least one node; false if they do not run the same way and nothing was done.
 #[inline(always)]
-pub(super) fn trace<I: Isa, A: Accept, const ANY: bool>(
+pub(super) fn trace<I: Isa, const ANY: bool>(
     mesh: &Mesh,
     rays: &[Ray],
     first: usize,
-    cull_back: bool,
-    accept: &mut A,
     stacks: &mut Stacks,
-    answer: &mut impl FnMut(usize, Option<Hit>),
+    answer: &mut Answer,
 ) -> bool {
     let mut packet = Packet::new::<I>(rays);
     if packet.sound != 0 {
         let Some(frustum) = Frustum::new::<I>(&packet, &mesh.tree().bounds()) else { return false };
-        let mut walk = Walk { mesh, rays, first, cull_back, accept, stacks, packet: &mut packet, frustum };
+        let mut walk = Walk { mesh, rays, stacks, packet: &mut packet, frustum };
         if walk.packet.agrees() {
             walk.run::<I, ANY, true>();
         } else {
@@ -61,19 +61,15 @@ pub(super) fn trace<I: Isa, A: Accept, const ANY: bool>(
     true
 }
 
-struct Walk<'a, A> {
+struct Walk<'a> {
     mesh: &'a Mesh,
     rays: &'a [Ray],
-    /// Number of the first ray in the batch.
-    first: usize,
-    cull_back: bool,
-    accept: &'a mut A,
     stacks: &'a mut Stacks,
     packet: &'a mut Packet,
     frustum: Frustum,
 }
 
-impl<A: Accept> Walk<'_, A> {
+impl Walk<'_> {
     #[inline(always)]
     fn run<I: Isa, const ANY: bool, const AGREE: bool>(&mut self) {
         let nodes = self.mesh.tree().nodes();
@@ -138,18 +134,10 @@ impl<A: Accept> Walk<'_, A> {
         let mut changed = false;
         let mut rays = rays;
         for place in 0..block.count() {
-            let Some(mut found) = self.packet.triangle::<I>(block, place, rays, self.cull_back) else {
+            let Some(found) = self.packet.triangle::<I>(block, place, rays, false) else {
                 continue;
             };
             let primitive = block.primitive(place);
-            if !A::ALWAYS {
-                let asked = found.rays;
-                for lane in (0..16).filter(|lane| asked >> lane & 1 == 1) {
-                    if !self.accept.accept(self.first + lane, &found.hit(lane, primitive)) {
-                        found.rays &= !(1 << lane);
-                    }
-                }
-            }
             if ANY {
                 self.packet.end::<I>(found.rays);
                 rays &= !found.rays;
@@ -162,22 +150,43 @@ impl<A: Accept> Walk<'_, A> {
     }
 
     /// Lets rays go on alone from a node or leaf.
-    #[inline(never)]
+    #[inline(always)]
     fn alone<I: Isa, const ANY: bool>(&mut self, from: u32, rays: u32) {
-        for lane in (0..16).filter(|lane| rays >> lane & 1 == 1) {
-            let Some(ray) = Prepared::new(&self.rays[lane]) else { continue };
-            let index = self.first + lane;
-            let accept = |hit: &Hit| self.accept.accept(index, hit);
-            let stack = &mut self.stacks.alone;
+        let Self { mesh, rays: all, stacks, packet, .. } = self;
+        let stack = &mut stacks.alone;
+        I::call(Single::<I, ANY> { mesh, all, packet, stack, from, rays, level: PhantomData });
+    }
+}
+
+/// Some rays of a packet, one after the other.
+struct Single<'a, I, const ANY: bool> {
+    mesh: &'a Mesh,
+    all: &'a [Ray],
+    packet: &'a mut Packet,
+    stack: &'a mut Stack,
+    from: u32,
+    /// A bit for each of them.
+    rays: u32,
+    level: PhantomData<I>,
+}
+
+impl<I: Isa, const ANY: bool> Task for Single<'_, I, ANY> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { mesh, packet, stack, from, .. } = self;
+        for lane in (0..16).filter(|lane| self.rays >> lane & 1 == 1) {
+            let Some(ray) = Prepared::new(&self.all[lane]) else { continue };
             if ANY {
-                if self.mesh.any_from::<I>(from, &ray, stack, self.cull_back, accept) {
-                    self.packet.end::<I>(1 << lane);
+                if mesh.any_from::<I>(from, &ray, stack, false, |_| true) {
+                    packet.end::<I>(1 << lane);
                 }
             } else {
-                let (bound, best) = (self.packet.bound[lane], self.packet.best(lane));
-                let hit = self.mesh.nearest_from::<I>(from, &ray, bound, best, stack, self.cull_back, accept);
+                let (bound, best) = (packet.bound[lane], packet.best(lane));
+                let hit = mesh.nearest_from::<I>(from, &ray, bound, best, stack, false, |_| true);
                 if let Some(hit) = hit {
-                    self.packet.set_best(lane, &hit);
+                    packet.set_best(lane, &hit);
                 }
             }
         }

@@ -1,5 +1,6 @@
 //! What kernels ask of a level: numbers side by side, and a few whole steps.
 
+use super::level::Task;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Not, Sub};
 
 /// One answer for each lane.
@@ -87,6 +88,10 @@ pub(crate) trait Isa: Copy {
 
     /// A bit for each number that is not `value`.
     fn differing(numbers: &[u32; 4], value: u32) -> u32;
+
+    /// Runs a task in a function of its own that is compiled for this level. What is merely not inlined would be compiled for
+    /// all processors, each vector operation a call.
+    fn call<T: Task>(task: T) -> T::Output;
 
     /// Asks for a cache line that will soon be read. Any address will do.
     fn prefetch<T>(address: *const T);

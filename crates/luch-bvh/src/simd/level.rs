@@ -125,13 +125,21 @@ unsafe fn enter<T: Task>(level: Level, task: T) -> T::Output {
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,bmi1,bmi2,popcnt,lzcnt")]
-fn run_avx512<T: Task>(task: T) -> T::Output {
+#[inline(never)]
+pub(super) fn run_avx512<T: Task>(task: T) -> T::Output {
     task.run()
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,bmi1,bmi2,popcnt,lzcnt")]
-fn run_avx2<T: Task>(task: T) -> T::Output {
+#[inline(never)]
+pub(super) fn run_avx2<T: Task>(task: T) -> T::Output {
+    task.run()
+}
+
+/// Runs a task in a function of its own.
+#[inline(never)]
+pub(super) fn run_portable<T: Task>(task: T) -> T::Output {
     task.run()
 }
 

@@ -356,11 +356,6 @@ pub(super) struct Found<I: Isa> {
 }
 
 impl<I: Isa> Found<I> {
-    /// The hit of a ray.
-    pub(super) fn hit(&self, lane: usize, primitive: u32) -> Hit {
-        Hit { t: self.t.to_array()[lane], u: self.u.to_array()[lane], v: self.v.to_array()[lane], primitive }
-    }
-
     /// Both, where no ray is in both.
     #[inline(always)]
     fn joined(self, other: Self) -> Self {

@@ -1,6 +1,7 @@
 //! The level every processor has: arrays, and loops the compiler may turn into whatever vectors there are.
 
 use super::lanes::{Isa, Lanes, Mask};
+use super::level::{Task, run_portable};
 use crate::slab::{larger, smaller};
 use std::array::from_fn;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Not, Sub};
@@ -184,6 +185,11 @@ impl Isa for Portable {
     #[inline(always)]
     fn differing(numbers: &[u32; 4], value: u32) -> u32 {
         (0..4).fold(0, |bits, lane| bits | u32::from(numbers[lane] != value) << lane)
+    }
+
+    #[inline(always)]
+    fn call<T: Task>(task: T) -> T::Output {
+        run_portable(task)
     }
 
     #[inline(always)]

@@ -2,21 +2,19 @@
 
 use super::{DONE, Slot, Space};
 use crate::Hit;
-use crate::simd::accept::Accept;
+use crate::simd::batch::Answer;
 use crate::simd::block::Block;
 use crate::simd::mesh::Mesh;
 use crate::tree::Tree;
 
-/// A mesh, which hits count, and where answers go.
-pub(in crate::simd) struct Alone<'a, A, R> {
+/// A mesh, and where answers go.
+pub(in crate::simd) struct Alone<'a, 'f> {
     pub(in crate::simd) mesh: &'a Mesh,
-    pub(in crate::simd) cull_back: bool,
-    pub(in crate::simd) accept: A,
-    pub(in crate::simd) answer: R,
+    pub(in crate::simd) answer: &'a mut Answer<'f>,
 }
 
 // SAFETY: a ray begins at the root, and nothing is ever put off here.
-unsafe impl<'a, A: Accept, R: FnMut(usize, Option<Hit>)> Space<'a> for Alone<'a, A, R> {
+unsafe impl<'a> Space<'a> for Alone<'a, '_> {
     type State = ();
 
     #[inline(always)]
@@ -42,12 +40,12 @@ unsafe impl<'a, A: Accept, R: FnMut(usize, Option<Hit>)> Space<'a> for Alone<'a,
 
     #[inline(always)]
     fn cull_back(&self, _: &Slot<()>) -> bool {
-        self.cull_back
+        false
     }
 
     #[inline(always)]
-    fn accept(&mut self, slot: &Slot<()>, hit: &Hit) -> bool {
-        self.accept.accept(slot.index as usize, hit)
+    fn accept(&mut self, _: &Slot<()>, _: &Hit) -> bool {
+        true
     }
 
     #[inline(always)]

@@ -4,7 +4,7 @@
 //! [`scene_tree`](crate::SceneTree); here is how a slot remembers it.
 
 use super::{DONE, NO_HIT, Slot, Space};
-use crate::scene_tree::{Geometry, InstanceHit, Placed, SceneTree, bound_inside};
+use crate::scene_tree::{Filter, Geometry, InstanceHit, Placed, SceneTree, bound_inside};
 use crate::simd::block::Block;
 use crate::simd::ray::Prepared;
 use crate::tree::Tree;
@@ -17,10 +17,10 @@ const RETURN: u32 = DONE - 1;
 const ENTRANCE: u32 = LEAF | 1 << 30;
 
 /// A scene, the rays as they were given, which hits count, and where answers go.
-pub(crate) struct World<'a, F, R> {
+pub(crate) struct World<'a, 'f, R> {
     scene: &'a SceneTree,
     rays: &'a [Ray],
-    accept: F,
+    accept: &'a mut Filter<'f>,
     answer: R,
     any: bool,
 }
@@ -44,12 +44,12 @@ pub(crate) struct State<'a> {
     best: Option<InstanceHit>,
 }
 
-impl<'a, F, R> World<'a, F, R> {
+impl<'a, 'f, R> World<'a, 'f, R> {
     /// `None` for a scene with more instances than an entrance can number. With `any` the first hit ends a ray.
     pub(crate) fn new(
         scene: &'a SceneTree,
         rays: &'a [Ray],
-        accept: F,
+        accept: &'a mut Filter<'f>,
         answer: R,
         any: bool,
     ) -> Option<Self> {
@@ -59,7 +59,7 @@ impl<'a, F, R> World<'a, F, R> {
     }
 }
 
-impl<'a, F: FnMut(usize, &InstanceHit) -> bool, R: FnMut(usize, Option<InstanceHit>)> World<'a, F, R> {
+impl<'a, R: FnMut(usize, Option<InstanceHit>)> World<'a, '_, R> {
     /// Looks for a hit of a shape; true if that answers the query.
     fn meet_shape(
         &mut self,
@@ -141,11 +141,7 @@ impl<'a, F: FnMut(usize, &InstanceHit) -> bool, R: FnMut(usize, Option<InstanceH
 
 // SAFETY: a ray begins at the root of the world. `enter` puts off the root of a mesh after the state says that the slot is in
 // its tree; the way back is met when nothing of that tree waits any more. A leaf has at most four entrances.
-unsafe impl<'a, F, R> Space<'a> for World<'a, F, R>
-where
-    F: FnMut(usize, &InstanceHit) -> bool,
-    R: FnMut(usize, Option<InstanceHit>),
-{
+unsafe impl<'a, R: FnMut(usize, Option<InstanceHit>)> Space<'a> for World<'a, '_, R> {
     type State = State<'a>;
 
     #[inline(always)]
