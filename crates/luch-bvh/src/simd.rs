@@ -51,8 +51,9 @@ mod walk;
 
 pub use level::{Level, Task, dispatch, dispatch_at};
 
-pub(crate) use batch::{any_in_mesh, nearest_in_mesh};
+pub(crate) use batch::{FEW, any_in_mesh, nearest_in_mesh};
 pub(crate) use block::Block;
+pub(crate) use coherent::{PACKET, Stacks as PacketStacks, trace_world};
 pub(crate) use lanes::Isa;
 pub(crate) use level::{Kernel, launch};
 pub(crate) use mesh::Mesh;

@@ -4,7 +4,10 @@
 //! compiled once, in this crate, and not again for every caller.
 
 use super::{InstanceHit, SceneTree};
-use crate::simd::{Isa, Kernel, Prepared, Stack, World, any_in_mesh, launch, nearest_in_mesh, trace, walk};
+use crate::simd::{
+    FEW, Isa, Kernel, PACKET, PacketStacks, Prepared, Stack, World, any_in_mesh, launch, nearest_in_mesh,
+    trace, trace_world, walk,
+};
 use crate::{Coherence, Hit, Interval, Ray};
 
 /// Told the index of a ray and a hit of it: whether the hit counts.
@@ -37,7 +40,7 @@ pub(super) fn nearest_batch(
         return nearest_in_mesh(triangles.mesh(), rays, coherence, &mut answer);
     }
     let answer = |index: usize, hit| hits[index] = hit;
-    launch(Batch::<_, false> { scene, rays, filter, answer });
+    launch(Batch::<_, false> { scene, rays, coherence, filter, answer });
 }
 
 /// See [`SceneTree::any_filtered_batch`]; there are at least as many places in `met` as `rays`.
@@ -54,7 +57,7 @@ pub(super) fn any_batch(
         return any_in_mesh(triangles.mesh(), rays, coherence, &mut answer);
     }
     let answer = |index: usize, hit: Option<InstanceHit>| met[index] = hit.is_some();
-    launch(Batch::<_, true> { scene, rays, filter, answer });
+    launch(Batch::<_, true> { scene, rays, coherence, filter, answer });
 }
 
 /// One stack for each level.
@@ -214,34 +217,49 @@ impl Kernel for Any<'_, '_> {
 struct Batch<'a, 'f, R, const ANY: bool> {
     scene: &'a SceneTree,
     rays: &'a [Ray],
+    coherence: Coherence,
     filter: &'a mut Filter<'f>,
     answer: R,
 }
-
-/// Fewer rays are not worth a queue.
-const FEW: usize = 8;
 
 impl<R: FnMut(usize, Option<InstanceHit>), const ANY: bool> Kernel for Batch<'_, '_, R, ANY> {
     type Output = ();
     #[inline(always)]
     fn run<I: Isa>(self) {
-        let Self { scene, rays, filter, mut answer } = self;
+        let Self { scene, rays, coherence, filter, mut answer } = self;
+        // Packets whose rays do not run the same way after all are left to the queue.
+        let mut others = Vec::new();
+        if rays.len() < FEW || coherence == Coherence::Incoherent {
+            others.push(0..rays.len());
+        } else {
+            let mut stacks = PacketStacks::new();
+            for (packet, rays) in rays.chunks(PACKET).enumerate() {
+                let first = packet * PACKET;
+                if !trace_world::<I, ANY>(scene, rays, first, filter, &mut stacks, &mut answer) {
+                    others.push(first..first + rays.len());
+                }
+            }
+        }
+        if others.is_empty() {
+            return;
+        }
+        let others = others.into_iter().flatten();
         if rays.len() >= FEW
             && let Some(mut world) = World::new(scene, rays, &mut *filter, &mut answer, ANY)
         {
-            trace::<I, _, ANY>(&mut world, rays, 0..rays.len());
-        } else {
-            let mut stacks = Stacks::new();
-            for (index, ray) in rays.iter().enumerate() {
-                let hit = if ANY {
-                    let nothing = Hit { t: 0.0, u: 0.0, v: 0.0, primitive: 0 };
-                    let met = scene.meets::<I>(index, ray, &mut stacks, filter);
-                    met.then_some(InstanceHit { instance: 0, hit: nothing })
-                } else {
-                    scene.search::<I>(index, ray, &mut stacks, filter)
-                };
-                answer(index, hit);
-            }
+            return trace::<I, _, ANY>(&mut world, rays, others);
         }
+        let mut stacks = Stacks::new();
+        others.for_each(|index| {
+            let ray = &rays[index];
+            let hit = if ANY {
+                let nothing = Hit { t: 0.0, u: 0.0, v: 0.0, primitive: 0 };
+                let met = scene.meets::<I>(index, ray, &mut stacks, filter);
+                met.then_some(InstanceHit { instance: 0, hit: nothing })
+            } else {
+                scene.search::<I>(index, ray, &mut stacks, filter)
+            };
+            answer(index, hit);
+        });
     }
 }

@@ -10,9 +10,7 @@ use crate::wide::EMPTY;
 use crate::{Coherence, Hit, Ray};
 
 /// Fewer rays are not worth a queue or a packet.
-const FEW: usize = 8;
-/// Rays of a packet.
-const PACKET: usize = 16;
+pub(crate) const FEW: usize = 8;
 
 /// Told the index of a ray and the end of its journey.
 pub(crate) type Answer<'f> = dyn FnMut(usize, Option<Hit>) + 'f;
@@ -66,8 +64,8 @@ impl<const ANY: bool> Kernel for MeshBatch<'_, '_, ANY> {
         } else {
             // Packets whose rays do not run the same way after all are left to the queue.
             let mut stacks = coherent::Stacks::new();
-            for (packet, rays) in rays.chunks(PACKET).enumerate() {
-                let first = packet * PACKET;
+            for (packet, rays) in rays.chunks(coherent::PACKET).enumerate() {
+                let first = packet * coherent::PACKET;
                 if !coherent::trace::<I, ANY>(mesh, rays, first, &mut stacks, answer) {
                     others.push(first..first + rays.len());
                 }

@@ -2,6 +2,10 @@
 //!
 //! The formulas are those of [`Prepared`](super::Prepared) and [`Block`], operation by operation.
 
+mod pieces;
+
+pub(super) use pieces::Pieces;
+
 use super::block::Block;
 use super::lanes::{Isa, Lanes, Mask};
 use crate::slab::{LONGEST, MARGIN};
@@ -356,6 +360,12 @@ pub(super) struct Found<I: Isa> {
 }
 
 impl<I: Isa> Found<I> {
+    /// The hit of a ray.
+    pub(super) fn hit(&self, lane: usize, primitive: u32) -> Hit {
+        let lane = lane & 15;
+        Hit { t: self.t.to_array()[lane], u: self.u.to_array()[lane], v: self.v.to_array()[lane], primitive }
+    }
+
     /// Both, where no ray is in both.
     #[inline(always)]
     fn joined(self, other: Self) -> Self {

@@ -69,6 +69,33 @@ impl Prepared {
         })
     }
 
+    /// A ray whose numbers are known: its piece that counts, the reciprocals of its direction for planes near and far, by axis
+    /// whether it runs toward lesser coordinates, and what triangle tests along the axis `along` need.
+    #[inline(always)]
+    pub(super) fn from_parts(
+        origin: [f32; 3],
+        whole: Interval,
+        [near_inverse, far_inverse]: [[f32; 3]; 2],
+        backward: [bool; 3],
+        along: usize,
+        shear: [f32; 3],
+        ahead: bool,
+    ) -> Self {
+        let turn = TURNS[along];
+        Self {
+            origin,
+            t_min: whole.near,
+            near_inverse,
+            t_max: whole.far,
+            far_inverse,
+            facing: [0, 1, 2].map(|axis| 64 * axis + (u32::from(backward[axis as usize]) << 5)),
+            rows: turn.map(|row| 16 * row as u32),
+            turned: turn.map(|axis| origin[axis]),
+            shear,
+            ahead,
+        }
+    }
+
     /// The piece of the ray inside a box, as [`SlabRay::interval`](crate::SlabRay::interval).
     #[inline(always)]
     pub(crate) fn interval(&self, bounds: &Aabb) -> Option<Interval> {

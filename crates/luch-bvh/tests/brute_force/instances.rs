@@ -8,7 +8,7 @@ use luch_bvh::shape::{Disc, Parallelogram, Plane, Sphere};
 use luch_bvh::{Coherence, Geometry, Instance, InstanceHit, Quality, Ray, SceneTree, TriangleBvh};
 use std::sync::Arc;
 
-fn bits(hit: Option<InstanceHit>) -> Option<[u32; 5]> {
+pub(crate) fn bits(hit: Option<InstanceHit>) -> Option<[u32; 5]> {
     let bits = |InstanceHit { instance, hit }| {
         [instance, hit.primitive, f32::to_bits(hit.t), f32::to_bits(hit.u), f32::to_bits(hit.v)]
     };
@@ -19,7 +19,7 @@ fn triangles(mesh: &Mesh) -> Geometry {
     Geometry::Triangles(Arc::new(TriangleBvh::build(&mesh.positions, &mesh.triangles, Quality::Balanced)))
 }
 
-fn geometries() -> Vec<Geometry> {
+pub(crate) fn geometries() -> Vec<Geometry> {
     vec![
         triangles(&meshes::torus(16, 8)),
         triangles(&meshes::cube()),
@@ -36,7 +36,7 @@ fn geometries() -> Vec<Geometry> {
 }
 
 /// Mirrored, sheared, flattened to nothing, on top of one another, of geometries that do not exist.
-fn instances(count: usize, seed: u64) -> Vec<Instance> {
+pub(crate) fn instances(count: usize, seed: u64) -> Vec<Instance> {
     let mut random = Random::new(seed);
     let mut list: Vec<Instance> = Vec::new();
     for index in 0..count {
@@ -73,22 +73,26 @@ fn instances(count: usize, seed: u64) -> Vec<Instance> {
 }
 
 /// Half of the hits: a pure function.
-fn filter(hit: &InstanceHit) -> bool {
+pub(crate) fn filter(hit: &InstanceHit) -> bool {
     (hit.instance ^ hit.hit.primitive ^ hit.hit.t.to_bits()).is_multiple_of(2)
 }
 
 /// A tree for each instance alone, and the least `(t, instance)` of their answers.
-struct Loop {
+pub(crate) struct Loop {
     alone: Vec<SceneTree>,
 }
 
 impl Loop {
-    fn new(instances: &[Instance]) -> Self {
+    pub(crate) fn new(instances: &[Instance]) -> Self {
         let alone = |instance: &Instance| SceneTree::build(geometries(), &[*instance], Quality::Fast);
         Self { alone: instances.iter().map(alone).collect() }
     }
 
-    fn nearest(&self, ray: &Ray, mut filter: impl FnMut(&InstanceHit) -> bool) -> Option<InstanceHit> {
+    pub(crate) fn nearest(
+        &self,
+        ray: &Ray,
+        mut filter: impl FnMut(&InstanceHit) -> bool,
+    ) -> Option<InstanceHit> {
         let mut best: Option<InstanceHit> = None;
         for (instance, tree) in (0..).zip(&self.alone) {
             let found = tree.nearest_filtered(ray, |hit| filter(&InstanceHit { instance, ..*hit }));

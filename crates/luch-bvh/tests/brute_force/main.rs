@@ -2,6 +2,7 @@
 
 mod adversarial;
 mod boxes;
+mod bundles;
 mod cramer;
 mod files;
 mod instances;
