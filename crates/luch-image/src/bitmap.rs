@@ -79,6 +79,7 @@ impl Bitmap {
     ///
     /// # Panics
     /// If the place is outside the bitmap.
+    #[inline]
     pub fn raw(&self, x: u32, y: u32) -> [f32; 4] {
         let at = y as usize * self.width as usize + x as usize;
         match &self.pixels {
@@ -92,6 +93,7 @@ impl Bitmap {
     ///
     /// # Panics
     /// If the place is outside the bitmap.
+    #[inline]
     pub fn linear(&self, x: u32, y: u32, encoding: Encoding) -> [f32; 4] {
         let at = y as usize * self.width as usize + x as usize;
         match (&self.pixels, encoding) {

@@ -38,6 +38,7 @@ impl<T: Copy> Attribute<T> {
     }
 
     /// The values at the corners of triangle `triangle`, whose position indices are `positions`; `None` if there are none.
+    #[inline]
     pub fn corners(&self, triangle: usize, positions: [u32; 3]) -> Option<[T; 3]> {
         if self.values.is_empty() {
             return None;
@@ -78,16 +79,19 @@ impl TriangleMesh {
     }
 
     /// The three corners of a triangle.
+    #[inline]
     pub fn corners(&self, triangle: usize) -> [Vec3; 3] {
         self.triangles[triangle].map(|i| self.positions[i as usize])
     }
 
     /// The three shading normals of a triangle, if the mesh has normals.
+    #[inline]
     pub fn corner_normals(&self, triangle: usize) -> Option<[Vec3; 3]> {
         self.normals.corners(triangle, self.triangles[triangle])
     }
 
     /// The three texture coordinates of a triangle in uv set `set`, if the mesh has that set.
+    #[inline]
     pub fn corner_uvs(&self, triangle: usize, set: usize) -> Option<[Vec2; 3]> {
         self.uv_sets.get(set)?.corners(triangle, self.triangles[triangle])
     }
@@ -103,6 +107,7 @@ impl TriangleMesh {
     }
 
     /// Twice the area times the unit normal of a triangle: (B − A) × (C − A).
+    #[inline]
     pub fn area_normal(&self, triangle: usize) -> Vec3 {
         let [a, b, c] = self.corners(triangle);
         (b - a).cross(c - a)

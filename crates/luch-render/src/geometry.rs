@@ -101,9 +101,8 @@ impl Geometry {
         coherence: Coherence,
         key: impl Fn(usize) -> u64,
     ) {
-        // One type for all callers: the kernels are compiled once.
-        let stops: &mut dyn FnMut(usize, &InstanceHit) -> bool =
-            &mut |ray, hit| self.stops(scene, &rays[ray], &self.in_scene(*hit), || key(ray));
+        let stops =
+            |ray: usize, hit: &InstanceHit| self.stops(scene, &rays[ray], &self.in_scene(*hit), || key(ray));
         self.tree.nearest_filtered_batch(rays, hits, coherence, stops);
         for hit in hits.iter_mut().flatten() {
             *hit = self.in_scene(*hit);
@@ -119,8 +118,8 @@ impl Geometry {
         coherence: Coherence,
         key: impl Fn(usize) -> u64,
     ) {
-        let stops: &mut dyn FnMut(usize, &InstanceHit) -> bool =
-            &mut |ray, hit| self.stops(scene, &rays[ray], &self.in_scene(*hit), || key(ray));
+        let stops =
+            |ray: usize, hit: &InstanceHit| self.stops(scene, &rays[ray], &self.in_scene(*hit), || key(ray));
         self.tree.any_filtered_batch(rays, occluded, coherence, stops);
     }
 

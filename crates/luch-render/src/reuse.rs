@@ -12,23 +12,33 @@
 //! Every visibility is tested, so the weights are exact and the mean of every pixel is what it was; pixels of a bundle now
 //! share part of their noise. What a sample is depends on pixel and index still: bundles are cut by the picture alone.
 //!
-//! Only diffuse first points take part, and second points whose light does not depend on who looks: diffuse ones. There f G is
-//! p but for the albedo, so one table of densities is all there is.
+//! Points of mirrors and clear glass do not take part: the path passes over them. Second points that shine are found by light
+//! sampling as well (`direct.rs`), weighted by the power heuristic of both densities, each the sum over the bundle. Second
+//! points that are neither diffuse nor shine send everyone something else (`glint.rs`).
 
 mod direct;
 mod echo;
+mod glint;
+mod lamp;
 mod points;
+mod scatterers;
+mod share;
 
 pub(crate) use direct::Standpoint;
 pub(crate) use echo::Lucky;
+pub(crate) use glint::Lit;
+pub(crate) use scatterers::Scatterer;
 
 use crate::surface::{Exit, segment_before};
 use crate::world::World;
 use glam::Vec3;
-use luch_bvh::simd::{Task, dispatch};
+use glint::{Glint, Met};
+use luch_bvh::simd::dispatch;
 use luch_bvh::{Coherence, Ray};
 use luch_image::Rgb;
 use points::{Densities, LANES, Points};
+use scatterers::Scatterers;
+use share::Share;
 
 /// Bundles whose visibilities are asked for together: their rays stay in the cache.
 const TOGETHER: usize = 16;
@@ -39,7 +49,9 @@ type Table = [[f32; LANES]; LANES];
 /// The first two points of all paths of a wave, and the light found past the second.
 #[derive(Debug, Default)]
 pub(crate) struct Reuse {
+    /// Those in use come first; the others are memory.
     bundles: Vec<Bundle>,
+    used: usize,
     /// For each sample its bundle and its lane there.
     places: Vec<(u32, u32)>,
     tables: Vec<Table>,
@@ -52,13 +64,15 @@ pub(crate) struct Reuse {
 #[derive(Clone, Debug, Default)]
 struct Bundle {
     /// Where paths scattered first.
-    firsts: Points,
+    firsts: Scatterers,
     /// Where they arrived second.
     seconds: Points,
-    /// What light scattered at the first point is multiplied by: albedo, and the way from the camera.
+    /// What light from the first point is multiplied by on the way to the camera.
     gains: [Rgb; LANES],
-    /// Light past the second point, for a throughput of one there.
+    /// Light that second points send alike to all.
     tails: [Rgb; LANES],
+    /// Second points that do not.
+    glints: Vec<Glint>,
     /// How many paths sampled direct light together with each.
     partners: [f32; LANES],
     /// The first sample of the bundle.
@@ -69,44 +83,105 @@ impl Reuse {
     /// Begins a wave of samples; `bundles` gives the number of the bundle of each in turn.
     pub(crate) fn start(&mut self, bundles: impl Iterator<Item = u32>) {
         let reuse = self;
-        reuse.bundles.clear();
+        reuse.used = 0;
         reuse.places.clear();
         reuse.lucky.clear();
         let (mut last, mut lane) = (None, 0);
         for (i, number) in bundles.enumerate() {
             if last != Some(number) || lane == LANES {
-                reuse.bundles.push(Bundle { start: i as u32, ..Bundle::default() });
+                if reuse.used == reuse.bundles.len() {
+                    reuse.bundles.push(Bundle::default());
+                }
+                reuse.bundles[reuse.used].clear(i as u32);
+                reuse.used += 1;
                 (last, lane) = (Some(number), 0);
             }
-            reuse.places.push((reuse.bundles.len() as u32 - 1, lane as u32));
+            reuse.places.push((reuse.used as u32 - 1, lane as u32));
             lane += 1;
         }
     }
 
-    /// The path of `sample` scattered first at a diffuse surface.
-    ///
-    /// `gain` is its albedo times the throughput of the way from the camera.
-    pub(crate) fn set_first(&mut self, sample: u32, exit: &Exit, depth: u32, gain: Rgb) {
+    /// The path of `sample` scattered first, at a diffuse surface; `gain` is the throughput of the way from the camera.
+    pub(crate) fn set_first_diffuse(&mut self, sample: u32, exit: &Exit, depth: u32, gain: Rgb, albedo: Rgb) {
         let (bundle, lane) = self.place(sample);
-        bundle.firsts.set(lane, exit, depth);
+        bundle.firsts.set_diffuse(lane, exit, depth, albedo);
         bundle.gains[lane] = gain;
     }
 
-    /// The path of `sample` arrived second at a diffuse surface.
+    /// The path of `sample` scattered first, at any surface that is not a mirror.
+    pub(crate) fn set_first(&mut self, sample: u32, scatterer: &Scatterer, depth: u32, gain: Rgb) {
+        let (bundle, lane) = self.place(sample);
+        bundle.firsts.set(lane, scatterer, depth);
+        bundle.gains[lane] = gain;
+    }
+
+    /// The path of `sample` arrived second at a surface that sends the same to all: it is diffuse, or it shines.
     pub(crate) fn set_second(&mut self, sample: u32, exit: &Exit, depth: u32) {
         let (bundle, lane) = self.place(sample);
         bundle.seconds.set(lane, exit, depth);
     }
 
-    /// Adds light that the path of `sample` found past its second point.
-    pub(crate) fn add(&mut self, sample: u32, light: Rgb) {
+    /// The path of `sample` arrived second at a surface that sends everyone something else.
+    pub(crate) fn set_glint(&mut self, sample: u32, scatterer: &Scatterer, depth: u32) {
         let (bundle, lane) = self.place(sample);
-        bundle.tails[lane] += light;
+        bundle.seconds.set(lane, &scatterer.exit, depth);
+        let scatterer = *scatterer;
+        bundle.glints.push(Glint {
+            lane,
+            scatterer,
+            lit: None,
+            way: None,
+            met: Vec::new(),
+            tail: Rgb::BLACK,
+        });
+    }
+
+    /// The light that was sampled at the second point of `sample`, a glint; not yet known to be free.
+    pub(crate) fn set_lit(&mut self, sample: u32, lit: Lit) {
+        if let Some(glint) = self.glint(sample) {
+            glint.lit = Some(lit);
+        }
+    }
+
+    /// That light is free.
+    pub(crate) fn set_free(&mut self, sample: u32) {
+        if let Some(lit) = self.glint(sample).and_then(|glint| glint.lit.as_mut()) {
+            lit.is_free = true;
+        }
+    }
+
+    /// The path of `sample` goes on from its second point, a glint.
+    pub(crate) fn set_way(&mut self, sample: u32, direction: Vec3) {
+        if let Some(glint) = self.glint(sample) {
+            glint.way = Some(direction);
+        }
+    }
+
+    /// The path of `sample` met a lamp on the way from a glint; light sampling there had density `pdf` for it.
+    pub(crate) fn meet(&mut self, sample: u32, light: Rgb, pdf: f32) {
+        if let Some(glint) = self.glint(sample) {
+            glint.met.push(Met { light, pdf });
+        }
+    }
+
+    /// Adds light that the path of `sample` found past its second point, or that this point sends itself.
+    pub(crate) fn add(&mut self, sample: u32, light: Rgb) {
+        if let Some(glint) = self.glint(sample) {
+            glint.tail += light;
+        } else {
+            let (bundle, lane) = self.place(sample);
+            bundle.tails[lane] += light;
+        }
     }
 
     /// A path found light over mirrors or glass after its first point.
     pub(crate) fn add_lucky(&mut self, lucky: Lucky) {
         self.lucky.push(lucky);
+    }
+
+    fn glint(&mut self, sample: u32) -> Option<&mut Glint> {
+        let (bundle, lane) = self.place(sample);
+        bundle.glints.iter_mut().find(|glint| glint.lane == lane)
     }
 
     fn place(&mut self, sample: u32) -> (&mut Bundle, usize) {
@@ -117,7 +192,7 @@ impl Reuse {
     /// Hands every path its share of all the light that the bundle found together.
     pub(crate) fn share(&mut self, world: &World, max_depth: u32, radiance: &mut [Rgb]) {
         self.connect(world);
-        for (bundle, table) in self.bundles.iter().zip(&self.tables) {
+        for (bundle, table) in self.bundles[..self.used].iter().zip(&self.tables) {
             dispatch(Share { bundle, table, radiance: &mut radiance[bundle.start as usize..] });
         }
         self.echo(world, max_depth, radiance);
@@ -125,8 +200,11 @@ impl Reuse {
 
     /// Finds who sees whose second point, and what that counts.
     fn connect(&mut self, world: &World) {
-        self.tables.resize(self.bundles.len(), [[0.0; LANES]; LANES]);
-        let Self { bundles, tables, rays, occluded, .. } = self;
+        if self.tables.len() < self.used {
+            self.tables.resize(self.used, [[0.0; LANES]; LANES]);
+        }
+        let Self { bundles, used, tables, rays, occluded, .. } = self;
+        let bundles = &bundles[..*used];
         for (bundles, tables) in bundles.chunks(TOGETHER).zip(tables.chunks_mut(TOGETHER)) {
             rays.clear();
             for (bundle, table) in bundles.iter().zip(&mut *tables) {
@@ -145,16 +223,32 @@ impl Reuse {
 }
 
 impl Bundle {
+    fn clear(&mut self, start: u32) {
+        self.firsts.clear();
+        self.seconds.clear();
+        self.tails = [Rgb::BLACK; LANES];
+        self.glints.clear();
+        self.start = start;
+    }
+
+    /// Whether anything is known to come from a second point.
+    fn sends(&self, lane: usize) -> bool {
+        self.seconds.is_set(lane)
+            && (!self.tails[lane].is_black()
+                || self.glints.iter().any(|glint| glint.lane == lane && glint.sends()))
+    }
+
     /// Appends a group of rays for each second point that others might see, one for each lane.
     fn ask(&self, table: &Table, rays: &mut Vec<Ray>) {
         for (j, row) in table.iter().enumerate() {
-            if !self.seconds.is_set(j) {
+            if !self.sends(j) {
                 continue;
             }
             let target = self.seconds.near(j);
             for (k, &density) in row.iter().enumerate() {
                 let asked = density > 0.0 && k != j;
-                rays.push(if asked { segment_before(self.firsts.near(k), target) } else { NO_RAY });
+                let start = || self.firsts.start_toward(k, target - self.firsts.points.position(k));
+                rays.push(if asked { segment_before(start(), target) } else { NO_RAY });
             }
         }
     }
@@ -162,7 +256,7 @@ impl Bundle {
     /// Turns densities into weights: zero for whom the point is hidden from, then divided by the sum of all.
     fn weigh<'a>(&self, table: &mut Table, answers: &mut impl Iterator<Item = &'a [bool]>) {
         for (j, row) in table.iter_mut().enumerate() {
-            if !self.seconds.is_set(j) {
+            if !self.sends(j) {
                 continue;
             }
             let hidden = answers.next().unwrap_or(&[]);
@@ -185,31 +279,3 @@ impl Bundle {
 
 /// A ray that meets nothing.
 const NO_RAY: Ray = Ray { origin: Vec3::ZERO, direction: Vec3::Z, t_min: 1.0, t_max: 0.0 };
-
-/// Sums the tails by weight, for all lanes at once.
-struct Share<'a> {
-    bundle: &'a Bundle,
-    table: &'a Table,
-    radiance: &'a mut [Rgb],
-}
-
-impl Task for Share<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self) {
-        let mut sums = [[0.0_f32; LANES]; 3];
-        for (row, tail) in self.table.iter().zip(&self.bundle.tails) {
-            for (sum, tail) in sums.iter_mut().zip(tail.to_array()) {
-                for k in 0..LANES {
-                    sum[k] += row[k] * tail;
-                }
-            }
-        }
-        for (k, gain) in self.bundle.gains.iter().enumerate() {
-            if self.bundle.firsts.is_set(k) {
-                self.radiance[k] += *gain * Rgb::new(sums[0][k], sums[1][k], sums[2][k]);
-            }
-        }
-    }
-}

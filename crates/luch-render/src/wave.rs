@@ -4,7 +4,7 @@
 //! each keeps its own numbers, and its sums are added in the order of its own bounces.
 
 use crate::plain::PlainHit;
-use crate::reuse::{Reuse, Standpoint};
+use crate::reuse::{Lit, Reuse, Standpoint};
 use crate::view::CameraSample;
 use crate::world::World;
 use crate::{opacity_key, purpose};
@@ -31,7 +31,7 @@ pub(crate) struct Path {
     pub(crate) depth: u32,
     /// How far it is in the part that its bundle takes together.
     pub(crate) leg: Leg,
-    /// The direction it left its first diffuse point in.
+    /// The direction it left its first point in.
     pub(crate) sent: Vec3,
     /// What the throughput was before it was set back to one for the others.
     pub(crate) carried: Rgb,
@@ -46,13 +46,15 @@ pub(crate) struct Path {
 pub(crate) enum Leg {
     /// From the camera over mirrors and glass: the pixel's own.
     Seen,
-    /// From the first diffuse point on, over so many mirrors and glass surfaces.
+    /// From the first point that is no mirror on, over so many mirrors and glass surfaces.
     Sent {
         /// Whether it met light there; the bundle takes care of that.
         mirrors: u32,
         lit: bool,
     },
-    /// Past a second diffuse point: what it finds belongs to all.
+    /// Just left a second point that is not diffuse: how much light counts that it meets next, all have a say in.
+    Glanced,
+    /// Past a second point: what it finds belongs to all.
     Shared,
     /// Nobody else's business.
     Own,
@@ -92,9 +94,20 @@ pub(crate) struct Shadows {
 struct Carried {
     light: Rgb,
     sample: u32,
-    shared: bool,
+    to: To,
     sampler: Sampler,
     depth: u32,
+}
+
+/// Whose light it is.
+#[derive(Clone, Copy, Debug)]
+enum To {
+    /// The pixel's.
+    Pixel,
+    /// All of the bundle's.
+    Bundle,
+    /// All of the bundle's, by the direction it comes from.
+    Glint,
 }
 
 /// Where light goes that paths find.
@@ -109,7 +122,7 @@ pub(crate) struct Found<'a> {
 impl Found<'_> {
     /// Light that the path came upon.
     pub(crate) fn add(&mut self, path: &Path, light: Rgb) {
-        if path.leg == Leg::Shared {
+        if path.is_shared() {
             self.reuse.add(path.sample, light);
         } else {
             self.radiance[path.sample as usize] += light;
@@ -118,10 +131,27 @@ impl Found<'_> {
 
     /// Light that comes along `ray`, if that is free.
     pub(crate) fn ask(&mut self, path: &Path, ray: Ray, light: Rgb) {
+        let to = if path.is_shared() { To::Bundle } else { To::Pixel };
+        self.ask_for(path, ray, light, to);
+    }
+
+    /// Light that comes to a glint along `ray`, if that is free.
+    pub(crate) fn ask_for_glint(&mut self, path: &Path, ray: Ray, lit: Lit) {
+        self.reuse.set_lit(path.sample, lit);
+        self.ask_for(path, ray, lit.light, To::Glint);
+    }
+
+    fn ask_for(&mut self, path: &Path, ray: Ray, light: Rgb, to: To) {
         let Path { sample, sampler, depth, .. } = *path;
-        let shared = path.leg == Leg::Shared;
         self.shadows.rays.push(ray);
-        self.shadows.carried.push(Carried { light, sample, shared, sampler, depth });
+        self.shadows.carried.push(Carried { light, sample, to, sampler, depth });
+    }
+}
+
+impl Path {
+    /// Whether what it finds belongs to all.
+    fn is_shared(&self) -> bool {
+        matches!(self.leg, Leg::Shared | Leg::Glanced)
     }
 }
 
@@ -242,13 +272,15 @@ impl Wave {
     }
 
     /// Adds the light of every shadow ray that is free.
-    pub(crate) fn connect(&mut self, world: &World, radiance: &mut [Rgb]) {
+    ///
+    /// The paths had scattered `depth` times before this bounce.
+    pub(crate) fn connect(&mut self, world: &World, depth: u32, radiance: &mut [Rgb]) {
         let Shadows { rays, carried } = &mut self.shadows;
         let paths = &self.samplers;
-        self.reuse.light(world, &mut self.standpoints, |sample, ray, light| {
+        self.reuse.light(world, depth, &mut self.standpoints, |sample, ray, light| {
             rays.push(ray);
             let sampler = paths[sample as usize];
-            carried.push(Carried { light, sample, shared: false, sampler, depth: 0 });
+            carried.push(Carried { light, sample, to: To::Pixel, sampler, depth: 0 });
         });
         self.standpoints.clear();
         self.occluded.clear();
@@ -257,10 +289,10 @@ impl Wave {
         world.geometry.occluded(&world.scene, rays, &mut self.occluded, Coherence::Incoherent, key);
         for (carried, occluded) in carried.iter().zip(&self.occluded) {
             if !occluded {
-                if carried.shared {
-                    self.reuse.add(carried.sample, carried.light);
-                } else {
-                    radiance[carried.sample as usize] += carried.light;
+                match carried.to {
+                    To::Pixel => radiance[carried.sample as usize] += carried.light,
+                    To::Bundle => self.reuse.add(carried.sample, carried.light),
+                    To::Glint => self.reuse.set_free(carried.sample),
                 }
             }
         }

@@ -10,6 +10,7 @@ mod table;
 use super::{EmitterSample, FarLight};
 use glam::{Mat3, Vec3};
 use luch_image::{Bitmap, Rgb};
+use luch_sampling::trig;
 use luch_scene::{Environment, Id, Scene};
 use std::f32::consts::PI;
 use table::Table;
@@ -59,9 +60,10 @@ impl EnvironmentEmitter {
         let Self::LatLong(map) = self else { return None };
         let drawn = map.bright.as_ref()?.table.draw(u)?;
         let [x, y] = drawn.position;
-        let (sin_polar, cos_polar) = libm::sincosf(y * PI);
-        let (sin_azimuth, cos_azimuth) = libm::sincosf((x - 0.5) * 2.0 * PI);
-        let local = Vec3::new(sin_polar * sin_azimuth, cos_polar, -sin_polar * cos_azimuth);
+        let [sin_polar, cos_polar] = trig::sin_cos_turns(0.5 * y);
+        // The middle column lies toward −z.
+        let [sin_azimuth, cos_azimuth] = trig::sin_cos_turns(x);
+        let local = Vec3::new(-sin_polar * sin_azimuth, cos_polar, sin_polar * cos_azimuth);
         let pdf = drawn.pdf / (2.0 * PI * PI * sin_polar);
         EmitterSample::checked(map.rotation * local, None, map.at(scene, x, y), pdf, false)
     }
@@ -73,9 +75,9 @@ impl EnvironmentEmitter {
             Self::LatLong(map) => {
                 let local = map.rotation.transpose() * direction;
                 let sin_polar = (local.x * local.x + local.z * local.z).sqrt();
-                let x = (0.5 + libm::atan2f(local.x, -local.z) / (2.0 * PI)).clamp(0.0, 1.0);
+                let x = (0.5 + trig::angle(local.x, -local.z) / (2.0 * PI)).clamp(0.0, 1.0);
                 // Near the poles the arc cosine has no digits left.
-                let y = (libm::atan2f(sin_polar, local.y) / PI).clamp(0.0, 1.0);
+                let y = (trig::angle(sin_polar, local.y) / PI).clamp(0.0, 1.0);
                 let pdf = match &map.bright {
                     Some(bright) => bright.table.pdf([x, y]) / (2.0 * PI * PI * sin_polar),
                     None => 0.0,

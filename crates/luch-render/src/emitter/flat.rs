@@ -299,11 +299,6 @@ impl FlatLamp {
         EmitterSample::checked(incoming, Some(target), self.radiance_at(scene, place), pdf, false)
     }
 
-    /// Density of a point drawn by area, per solid angle as seen from `from`.
-    pub(crate) fn pdf_by_area(&self, from: Vec3, to: Vec3) -> f32 {
-        if self.faces(from) { pdf_of_area(from, to, self.normal, self.area).unwrap_or(0.0) } else { 0.0 }
-    }
-
     pub(crate) fn pdf(&self, from: Vec3, to: Vec3) -> f32 {
         if !self.faces(from) {
             return 0.0;

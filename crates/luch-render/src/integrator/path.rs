@@ -3,13 +3,13 @@
 mod lanes;
 
 use super::Integrator;
-use crate::bsdf::{Bsdf, Diffuse};
+use crate::bsdf::Bsdf;
 use crate::material::{bsdf_at, emitted};
 use crate::purpose;
-use crate::reuse::{Lucky, Standpoint};
+use crate::reuse::{Lit, Lucky, Scatterer, Standpoint};
 use crate::roulette::survive;
 use crate::stop::{Stop, Stopped};
-use crate::surface::{Exit, SurfacePoint, segment_before};
+use crate::surface::{SurfacePoint, segment_before};
 use crate::view::CameraSample;
 use crate::wave::{Arrival, Found, Leg, Origin, Path, Wave};
 use crate::world::World;
@@ -17,7 +17,7 @@ use glam::Vec3;
 use luch_bvh::Ray;
 use luch_bvh::simd::dispatch;
 use luch_image::Rgb;
-use luch_sampling::{Frame, hash, mis};
+use luch_sampling::{hash, mis};
 
 /// Scatterings up to which paths of a bundle help each other.
 const TOGETHER: u32 = 32;
@@ -70,7 +70,7 @@ impl Integrator for PathTracer {
                     }
                 },
             );
-            wave.connect(world, radiance);
+            wave.connect(world, bounce, radiance);
             bounce += 1;
         }
         if share {
@@ -85,8 +85,8 @@ impl Integrator for PathTracer {
 fn escape(world: &World, path: &mut Path, found: &mut Found, share: bool) {
     let (from, normal) = path.origin.map_or((Vec3::ZERO, Vec3::ZERO), |o| (o.position, o.normal));
     for light in world.lights.beyond(&world.scene, from, normal, path.ray.direction) {
-        let light = light.radiance * path.weight_of_found(light.pdf * path.partners(found));
-        path.come_upon(light, found, share);
+        let pdf = light.pdf * path.partners(found);
+        path.come_upon(light.radiance, pdf, found, share);
     }
 }
 
@@ -114,21 +114,20 @@ fn arrive_plain(
         }
         let path = &mut paths[arrival.path];
         let albedo = arrival.triangle.albedo;
-        let is_first = share && path.offer(&departures.exit(lane), albedo, found);
+        let is_first = share && path.may_be_first();
+        if is_first {
+            let (depth, throughput) = (path.depth, path.throughput);
+            found.reuse.set_first_diffuse(path.sample, &departures.exit(lane), depth, throughput, albedo);
+            path.sampler = path.together;
+        } else if path.may_be_second() {
+            found.reuse.set_second(path.sample, &departures.exit(lane), path.depth);
+            path.hand_over();
+        }
         let (position, normal, near) =
             (departures.position(lane), departures.normal(lane), departures.near(lane));
-        let together = share && path.lights_together(world);
+        let together = is_first && world.lights.is_shareable();
         if together {
-            found.standpoints.push(Standpoint {
-                sample: path.sample,
-                exit: departures.exit(lane),
-                frame: Frame::from_normal(normal),
-                bsdf: Bsdf::Diffuse(Diffuse::new(albedo)),
-                outgoing: Vec3::Z,
-                toward_viewer: -path.ray.direction,
-                throughput: path.throughput,
-                numbers: path.together.group_words(purpose::light(bounce)),
-            });
+            found.standpoints.push(Standpoint { sample: path.sample, sampler: path.together });
         } else if let Some(light) = {
             let choice = f64::from(departures.light_choice[lane]) / 4_294_967_296.0;
             world.lights.sample(&world.scene, position, normal, choice, departures.light_place(lane))
@@ -145,7 +144,7 @@ fn arrive_plain(
         }
         let factor = if is_first { 1.0 } else { departures.factor(lane) };
         if factor > 0.0 {
-            path.leave(departures.direction(lane), false, is_first);
+            path.leave(departures.direction(lane), false, if is_first { Turn::First } else { Turn::Other });
             path.throughput *= albedo * factor;
             path.origin =
                 Some(Origin { position, normal, together, pdf: departures.pdf(lane), specular: false });
@@ -169,12 +168,7 @@ impl PathTracer {
         // Light of the surface itself.
         let light = emitted(point);
         if !light.is_black() {
-            let pdf = path.origin.map_or(0.0, |origin| match origin.together {
-                true => world.lights.candidate_pdf_of_hit(origin.position, origin.normal, point),
-                false => world.lights.pdf_of_hit(origin.position, origin.normal, point),
-            });
-            let pdf = pdf * path.partners(found);
-            path.come_upon(light * path.weight_of_found(pdf), found, share);
+            path.meet_lamp(world, light, point, found, share);
         }
         if path.depth == self.max_depth {
             return false;
@@ -184,28 +178,14 @@ impl PathTracer {
         let exit = point.exit();
         // Light is sampled for the pixel alone, directions for the whole bundle.
         let own = path.sampler;
-        let together = share && !bsdf.is_specular() && path.lights_together(world);
-        let is_first = match &bsdf {
-            Bsdf::Diffuse(diffuse) if share && point.is_seen_alike() => {
-                path.offer(&exit, diffuse.color(), found)
-            }
-            _ => false,
-        };
-
+        let scatterer = Scatterer { exit, frame: point.frame, bsdf, toward_viewer: point.outgoing };
+        let turn = if share { path.turn(&scatterer, point.is_seen_alike(), found) } else { Turn::Other };
+        let together = turn == Turn::First && world.lights.is_shareable();
         let receiving = if bsdf.transmits() { Vec3::ZERO } else { exit.normal };
 
         // Light sampled from here.
         if together {
-            found.standpoints.push(Standpoint {
-                sample: path.sample,
-                exit,
-                frame: point.frame,
-                bsdf,
-                outgoing,
-                toward_viewer: point.outgoing,
-                throughput: path.throughput,
-                numbers: path.together.group_words(purpose::light(path.depth)),
-            });
+            found.standpoints.push(Standpoint { sample: path.sample, sampler: path.together });
         } else if !bsdf.is_specular() {
             let [choice, u, v, _] = own.group_words(purpose::light(path.depth));
             let choice = f64::from(choice) / 4_294_967_296.0;
@@ -213,13 +193,18 @@ impl PathTracer {
             if let Some(light) = world.lights.sample(&world.scene, point.position, receiving, choice, [u, v])
                 && exit.is_honest(light.incoming)
             {
-                let scattered = bsdf.evaluate(outgoing, point.frame.to_local(light.incoming));
-                let weight = if light.delta { 1.0 } else { mis::power(light.pdf, scattered.pdf) };
-                let carried = path.throughput * scattered.value * light.radiance * (weight / light.pdf);
-                if !carried.is_black() {
-                    let ray =
-                        light.target.map_or_else(|| exit.ray_toward(light.incoming), |to| exit.ray_to(to));
-                    found.ask(path, ray, carried);
+                let ray = light.target.map_or_else(|| exit.ray_toward(light.incoming), |to| exit.ray_to(to));
+                if turn == Turn::Glint {
+                    let (direction, pdf, delta) = (light.incoming, light.pdf, light.delta);
+                    let light = light.radiance * (1.0 / pdf);
+                    found.ask_for_glint(path, ray, Lit { direction, light, pdf, delta, is_free: false });
+                } else {
+                    let scattered = bsdf.evaluate(outgoing, point.frame.to_local(light.incoming));
+                    let weight = if light.delta { 1.0 } else { mis::power(light.pdf, scattered.pdf) };
+                    let carried = path.throughput * scattered.value * light.radiance * (weight / light.pdf);
+                    if !carried.is_black() {
+                        found.ask(path, ray, carried);
+                    }
                 }
             }
         }
@@ -239,18 +224,30 @@ impl PathTracer {
         }
         // What the bundle takes together is not left to chance.
         let sure = matches!(path.leg, Leg::Seen | Leg::Sent { .. }) && path.depth < TOGETHER;
-        if !(is_first || (sure && scattered.specular)) {
+        let mut factor = 1.0;
+        if !(turn == Turn::First || (sure && scattered.specular)) {
             let carried = path.throughput * path.carried / path.radiance_scale;
-            let Some(factor) = survive(path.depth, carried, chance) else {
+            let Some(survived) = survive(path.depth, carried, chance) else {
                 return false;
             };
-            path.throughput *= factor;
+            factor = survived;
         }
-        path.leave(incoming, scattered.specular, is_first);
+        path.throughput *= factor;
+        if turn == Turn::Glint {
+            if scattered.specular {
+                // A mirror within the glint is found by nobody else: the path's own business after all.
+                path.throughput *= path.carried;
+                path.carried = Rgb::WHITE;
+            } else {
+                found.reuse.set_way(path.sample, incoming);
+                path.throughput = Rgb::WHITE * factor;
+            }
+        }
+        path.leave(incoming, scattered.specular, turn);
         path.origin = Some(Origin {
             position: point.position,
             normal: receiving,
-            together,
+            together: together && !scattered.specular,
             pdf: scattered.pdf,
             specular: scattered.specular,
         });
@@ -260,15 +257,25 @@ impl PathTracer {
     }
 }
 
+/// What a surface is to the bundle of a path that meets it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Turn {
+    /// The first point, where others are connected from.
+    First,
+    /// A second point that sends everyone something else.
+    Glint,
+    Other,
+}
+
 impl Path {
-    /// Whether a diffuse surface here would be the path's first.
+    /// Whether a surface here that is no mirror would be the path's first.
     fn may_be_first(&self) -> bool {
         self.leg == Leg::Seen && self.depth < TOGETHER
     }
 
-    /// Whether the bundle samples direct light together where the path is now.
-    fn lights_together(&self, world: &World) -> bool {
-        self.may_be_first() && world.lights.is_shareable()
+    /// Whether it would be the second.
+    fn may_be_second(&self) -> bool {
+        matches!(self.leg, Leg::Sent { mirrors: 0, .. })
     }
 
     /// How many paths sampled direct light together where this one comes from.
@@ -279,56 +286,91 @@ impl Path {
         }
     }
 
-    /// Lets the bundle know of a diffuse surface. The first is where others are connected from: then the answer is true. The
-    /// second is where they are connected to: what the path finds from then on belongs to all.
-    fn offer(&mut self, exit: &Exit, albedo: Rgb, found: &mut Found) -> bool {
-        match self.leg {
-            Leg::Seen if self.may_be_first() => {
-                found.reuse.set_first(self.sample, exit, self.depth, self.throughput * albedo);
-                self.sampler = self.together;
-                true
+    /// Lets the bundle know of a surface. The first that is no mirror is where others are connected from, the second is where
+    /// they are connected to: what the path finds from then on belongs to all.
+    fn turn(&mut self, scatterer: &Scatterer, is_seen_alike: bool, found: &mut Found) -> Turn {
+        if scatterer.bsdf.is_specular() {
+            return Turn::Other;
+        }
+        if self.may_be_first() {
+            found.reuse.set_first(self.sample, scatterer, self.depth, self.throughput);
+            self.sampler = self.together;
+            Turn::First
+        } else if self.may_be_second() && is_seen_alike {
+            let is_diffuse = matches!(scatterer.bsdf, Bsdf::Diffuse(_));
+            if is_diffuse {
+                found.reuse.set_second(self.sample, &scatterer.exit, self.depth);
+            } else {
+                found.reuse.set_glint(self.sample, scatterer, self.depth);
             }
-            Leg::Sent { mirrors: 0, .. } => {
-                found.reuse.set_second(self.sample, exit, self.depth);
-                self.carried = self.throughput;
-                self.throughput = Rgb::WHITE;
-                self.leg = Leg::Shared;
-                false
-            }
-            _ => false,
+            self.hand_over();
+            if is_diffuse { Turn::Other } else { Turn::Glint }
+        } else {
+            Turn::Other
         }
     }
 
+    /// From here on what the path finds belongs to all, so it is counted from here.
+    fn hand_over(&mut self) {
+        self.carried = self.throughput;
+        self.throughput = Rgb::WHITE;
+        self.leg = Leg::Shared;
+    }
+
     /// Notes that the path goes on, after a first point or over a mirror or otherwise.
-    fn leave(&mut self, direction: Vec3, specular: bool, is_first: bool) {
+    fn leave(&mut self, direction: Vec3, specular: bool, turn: Turn) {
         self.leg = match self.leg {
-            Leg::Seen if is_first => {
+            Leg::Seen if turn == Turn::First && !specular => {
                 self.sent = direction;
                 Leg::Sent { mirrors: 0, lit: false }
             }
-            Leg::Seen if specular => Leg::Seen,
+            Leg::Seen if turn != Turn::First && specular => Leg::Seen,
             Leg::Sent { mirrors, lit } if specular && self.depth < TOGETHER => {
                 Leg::Sent { mirrors: mirrors + 1, lit }
             }
-            Leg::Shared => Leg::Shared,
+            Leg::Shared | Leg::Glanced => match turn {
+                Turn::Glint if specular => Leg::Own,
+                Turn::Glint => Leg::Glanced,
+                _ => Leg::Shared,
+            },
             _ => Leg::Own,
         };
     }
 
-    /// Takes light that the path found by itself; over mirrors from a first point it is the bundle's to share out.
-    fn come_upon(&mut self, light: Rgb, found: &mut Found, share: bool) {
-        if let Leg::Sent { mirrors, lit } = &mut self.leg
-            && share
-            && *mirrors > 0
-        {
-            if !*lit && !light.is_black() {
-                *lit = true;
-                let (sample, direction, sampler) = (self.sample, self.sent, self.sampler);
-                found.reuse.add_lucky(Lucky { sample, direction, sampler });
+    /// Meets a surface that shines.
+    fn meet_lamp(&mut self, world: &World, light: Rgb, point: &SurfacePoint, found: &mut Found, share: bool) {
+        match self.origin {
+            Some(origin) if origin.together => {
+                let light = light * found.reuse.weight_of_lamp(world, self.sample, point);
+                if point.is_seen_alike() {
+                    found.reuse.set_second(self.sample, &point.exit(), self.depth);
+                    found.reuse.add(self.sample, light);
+                } else {
+                    found.add(self, self.throughput * light);
+                }
             }
-            return;
+            Some(origin) => {
+                let pdf = world.lights.pdf_of_hit(origin.position, origin.normal, point);
+                self.come_upon(light, pdf, found, share);
+            }
+            None => self.come_upon(light, 0.0, found, share),
         }
-        found.add(self, self.throughput * light);
+    }
+
+    /// Takes light that the path found by itself, where light sampling has density `light_pdf` for it; over mirrors from a first
+    /// point it is the bundle's to share out.
+    fn come_upon(&mut self, light: Rgb, light_pdf: f32, found: &mut Found, share: bool) {
+        match &mut self.leg {
+            Leg::Sent { mirrors, lit } if share && *mirrors > 0 => {
+                if !*lit && !light.is_black() {
+                    *lit = true;
+                    let (sample, direction, sampler) = (self.sample, self.sent, self.sampler);
+                    found.reuse.add_lucky(Lucky { sample, direction, sampler });
+                }
+            }
+            Leg::Glanced => found.reuse.meet(self.sample, self.throughput * light, light_pdf),
+            _ => found.add(self, self.throughput * light * self.weight_of_found(light_pdf)),
+        }
     }
 
     /// How much light counts that the path found by itself, where light sampling has density `light_pdf` for it.

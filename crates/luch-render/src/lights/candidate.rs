@@ -89,11 +89,6 @@ impl Lights {
         }
     }
 
-    /// Whether no emitter is a point.
-    pub(crate) fn is_extended(&self) -> bool {
-        !self.others.iter().any(|emitter| matches!(emitter, Emitter::Point(_) | Emitter::Spot(_)))
-    }
-
     /// A candidate as seen from a receiver; its density is that of the candidate alone, without the choice of emitter.
     #[inline]
     pub fn toward(&self, candidate: &Candidate, scene: &Scene, from: Vec3) -> Option<EmitterSample> {
@@ -104,14 +99,20 @@ impl Lights {
         }
     }
 
-    /// Density with which a receiver would draw a point of a surface as a candidate, the choice of emitter included.
-    pub fn candidate_pdf_of_hit(&self, from: Vec3, normal: Vec3, point: &SurfacePoint) -> f32 {
-        let Shape::Mesh(_) = point.place.shape else { return 0.0 };
-        let Some(emitter) = self.emitter_at(point.hit.instance, point.place.primitive as u32) else {
-            return 0.0;
-        };
-        let Some(lamp) = self.flat.get(emitter as usize) else { return 0.0 };
-        let pdf = lamp.pdf_by_area(from, point.position);
-        if pdf > 0.0 { pdf * self.probability(emitter, from, normal) } else { 0.0 }
+    /// The emitter that a point of a surface belongs to, and the density per area with which candidates of it are drawn there;
+    /// `None` if there are none.
+    pub(crate) fn candidate_pdf_area(&self, point: &SurfacePoint) -> Option<CandidateDensity> {
+        let Shape::Mesh(_) = point.place.shape else { return None };
+        let emitter = self.emitter_at(point.hit.instance, point.place.primitive as u32)?;
+        let pdf_area = 1.0 / self.flat.get(emitter as usize)?.area;
+        Some(CandidateDensity { emitter, pdf_area })
     }
+}
+
+/// How densely candidates are drawn from an emitter.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CandidateDensity {
+    pub(crate) emitter: u32,
+    /// Without the choice of emitter.
+    pub(crate) pdf_area: f32,
 }

@@ -11,12 +11,15 @@
 //! which is the balance heuristic among techniques of density p(m) restricted to where they are lucky: whoever in S had sent its
 //! own path along ω, the same would have been done. The mean stays what it was.
 
+use super::points::LEAST_PART;
+use super::scatterers::{Scattered, Scatterers};
 use super::{LANES, Reuse};
 use crate::material::{bsdf_at, emitted};
 use crate::purpose;
 use crate::surface::SurfacePoint;
 use crate::world::World;
 use glam::Vec3;
+use luch_bvh::simd::{Task, dispatch};
 use luch_bvh::{Coherence, InstanceHit, Ray};
 use luch_image::Rgb;
 use luch_sampling::Sampler;
@@ -37,7 +40,9 @@ struct Try {
     ray: Ray,
     throughput: Rgb,
     found: Rgb,
-    cosine: f32,
+    /// What the first point scatters of it, and with which density it sends paths there.
+    value: Rgb,
+    pdf: f32,
     lucky: u32,
     lane: u32,
     depth: u32,
@@ -53,18 +58,23 @@ impl Reuse {
         for (number, path) in lucky.iter().enumerate() {
             let (bundle, own) = self.places[path.sample as usize];
             let firsts = &self.bundles[bundle as usize].firsts;
-            let depth = firsts.depth(own as usize);
+            let depth = firsts.points.depth[own as usize];
+            let scattered = dispatch(Sent { firsts, direction: path.direction });
+            let pdf = |lane: usize| if firsts.points.is_at(lane, depth) { scattered.pdf[lane] } else { 0.0 };
+            let least = (0..LANES).map(pdf).fold(0.0, f32::max) * LEAST_PART;
+            // Whose direction it was by a chance that is none for the others keeps it.
+            let shared = pdf(own as usize) >= least;
             for lane in 0..LANES {
-                if !firsts.is_set(lane) || firsts.depth(lane) != depth {
-                    continue;
-                }
-                let cosine = firsts.cosine(lane, path.direction);
-                if cosine > 0.0 {
+                let counts =
+                    if shared { pdf(lane) > 0.0 && pdf(lane) >= least } else { lane == own as usize };
+                if counts {
+                    let [r, g, b] = scattered.value.map(|channel| channel[lane]);
                     tries.push(Try {
-                        ray: Ray::new(firsts.near(lane), path.direction),
+                        ray: Ray::new(firsts.start_toward(lane, path.direction), path.direction),
                         throughput: Rgb::WHITE,
                         found: Rgb::BLACK,
-                        cosine,
+                        value: Rgb::new(r, g, b),
+                        pdf: scattered.pdf[lane],
                         lucky: number as u32,
                         lane: lane as u32,
                         depth: depth + 1,
@@ -89,17 +99,35 @@ impl Reuse {
             });
         }
         for tries in tries.chunk_by(|a, b| a.lucky == b.lucky) {
-            let sum: f32 = tries.iter().filter(|path| !path.found.is_black()).map(|path| path.cosine).sum();
+            let sum: f32 = tries.iter().filter(|path| !path.found.is_black()).map(|path| path.pdf).sum();
             if sum <= 0.0 {
                 continue;
             }
             let sample = lucky[tries[0].lucky as usize].sample;
             let bundle = &self.bundles[self.places[sample as usize].0 as usize];
             for path in tries {
-                let share = path.found * (path.cosine / sum);
+                let share = path.found * path.value * (1.0 / sum);
                 radiance[(bundle.start + path.lane) as usize] += bundle.gains[path.lane as usize] * share;
             }
         }
+    }
+}
+
+/// What all first points scatter from one direction.
+struct Sent<'a> {
+    firsts: &'a Scatterers,
+    direction: Vec3,
+}
+
+impl Task for Sent<'_> {
+    type Output = Scattered;
+
+    #[inline(always)]
+    fn run(self) -> Scattered {
+        let mut scattered = Scattered::default();
+        let toward = self.direction.to_array().map(|axis| [axis; LANES]);
+        self.firsts.evaluate(&toward, &mut scattered);
+        scattered
     }
 }
 

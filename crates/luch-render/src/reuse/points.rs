@@ -1,10 +1,10 @@
 //! Points of a bundle side by side, and the densities between all of them.
 
 use super::Table;
+use super::scatterers::{Scattered, Scatterers};
 use crate::surface::Exit;
 use glam::Vec3;
 use luch_bvh::simd::Task;
-use std::f32::consts::FRAC_1_PI;
 
 /// Points side by side.
 pub(super) const LANES: usize = 16;
@@ -12,31 +12,38 @@ pub(super) const LANES: usize = 16;
 /// Least cosine at which a shading normal is not tilted toward the viewer.
 const LEAST_COSINE: f32 = 1e-3;
 
-type Lanes = [f32; LANES];
+/// Who finds a point with less than this part of the largest density has no share in it: the ray would not be worth it.
+pub(super) const LEAST_PART: f32 = 1.0 / 1024.0;
 
-/// Points of surfaces, `[axis][lane]`; places that are not set stand nowhere.
+/// A number for each lane.
+pub(super) type Lanes = [f32; LANES];
+/// A vector or colour for each lane, `[axis][lane]`.
+pub(super) type Vectors = [Lanes; 3];
+
+pub(super) const NONE: Vectors = [[0.0; LANES]; 3];
+
+/// Points of surfaces, `[axis][lane]`; what stands in places that are not set means nothing.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub(super) struct Points {
-    position: [Lanes; 3],
-    geometric_normal: [Lanes; 3],
-    normal: [Lanes; 3],
-    near: [Lanes; 3],
+    pub(super) position: Vectors,
+    pub(super) geometric_normal: Vectors,
+    pub(super) normal: Vectors,
+    near: Vectors,
     /// 1 where smooth shading lifts the point.
-    lifted: Lanes,
+    pub(super) lifted: Lanes,
     /// How often the path scattered before.
-    depth: [u32; LANES],
+    pub(super) depth: [u32; LANES],
     set: u32,
 }
 
 impl Default for Points {
     fn default() -> Self {
-        let none = [[0.0; LANES]; 3];
         Self {
-            position: none,
-            geometric_normal: none,
-            normal: none,
-            near: none,
+            position: NONE,
+            geometric_normal: NONE,
+            normal: NONE,
+            near: NONE,
             lifted: [0.0; LANES],
             depth: [0; LANES],
             set: 0,
@@ -45,6 +52,10 @@ impl Default for Points {
 }
 
 impl Points {
+    pub(super) fn clear(&mut self) {
+        self.set = 0;
+    }
+
     pub(super) fn set(&mut self, lane: usize, exit: &Exit, depth: u32) {
         for axis in 0..3 {
             self.position[axis][lane] = exit.position[axis];
@@ -57,31 +68,56 @@ impl Points {
         self.set |= 1 << lane;
     }
 
-    pub(super) fn depth(&self, lane: usize) -> u32 {
-        self.depth[lane]
-    }
-
-    /// Cosine of a direction against the shading normal; 0 where no light may pass.
-    pub(super) fn cosine(&self, lane: usize, direction: Vec3) -> f32 {
-        let along = |rows: &[Lanes; 3]| Vec3::from_array(rows.map(|axis| axis[lane])).dot(direction);
-        let honest = along(&self.geometric_normal) > 0.0 || self.lifted[lane] > 0.0;
-        if honest { along(&self.normal).max(0.0) } else { 0.0 }
-    }
-
     pub(super) fn is_set(&self, lane: usize) -> bool {
         self.set >> lane & 1 == 1
     }
 
+    /// Whether a lane is set and its path had scattered so often.
+    #[inline(always)]
+    pub(super) fn is_at(&self, lane: usize, depth: u32) -> bool {
+        self.is_set(lane) & (self.depth[lane] == depth)
+    }
+
+    pub(super) fn position(&self, lane: usize) -> Vec3 {
+        at(&self.position, lane)
+    }
+
+    /// Normal of the shading frame, on the side of the viewer.
+    pub(super) fn normal(&self, lane: usize) -> Vec3 {
+        at(&self.normal, lane)
+    }
+
     /// Where rays on the viewer's side start and end.
     pub(super) fn near(&self, lane: usize) -> Vec3 {
-        Vec3::from_array(self.near.map(|axis| axis[lane]))
+        at(&self.near, lane)
     }
 }
 
+/// The vector of one lane.
+#[inline(always)]
+pub(super) fn at(vectors: &Vectors, lane: usize) -> Vec3 {
+    Vec3::new(vectors[0][lane], vectors[1][lane], vectors[2][lane])
+}
+
+/// Unit vectors from the points to one place.
+#[inline(always)]
+pub(super) fn directions_to(points: &Points, place: Vec3) -> (Vectors, Lanes) {
+    let (mut toward, mut squared) = (NONE, [0.0; LANES]);
+    for k in 0..LANES {
+        let way = place - at(&points.position, k);
+        squared[k] = way.dot(way);
+        let direction = way * (1.0 / squared[k].sqrt());
+        for axis in 0..3 {
+            toward[axis][k] = direction[axis];
+        }
+    }
+    (toward, squared)
+}
+
 /// Fills in, for each second point (row) and each first point (column), the density per area at the second with which the
-/// first finds it if it sees it: cos / π · |cos| / distance².
+/// first finds it if it sees it.
 pub(super) struct Densities<'a> {
-    pub(super) firsts: &'a Points,
+    pub(super) firsts: &'a Scatterers,
     pub(super) seconds: &'a Points,
     pub(super) table: &'a mut Table,
 }
@@ -92,41 +128,36 @@ impl Task for Densities<'_> {
     #[inline(always)]
     fn run(self) {
         let Self { firsts, seconds, table } = self;
+        let mut scattered = Scattered::default();
         for (j, row) in table.iter_mut().enumerate() {
+            *row = [0.0; LANES];
             if !seconds.is_set(j) {
-                *row = [0.0; LANES];
                 continue;
             }
-            let at = |rows: &[Lanes; 3]| rows.map(|axis| axis[j]);
-            let (to, geometric, shading) =
-                (at(&seconds.position), at(&seconds.geometric_normal), at(&seconds.normal));
+            let (geometric, shading) = (at(&seconds.geometric_normal, j), at(&seconds.normal, j));
+            let (toward, squared) = directions_to(&firsts.points, at(&seconds.position, j));
+            firsts.densities(&toward, &mut scattered);
+            let mut most = 0.0_f32;
             for k in 0..LANES {
-                let x = to[0] - firsts.position[0][k];
-                let y = to[1] - firsts.position[1][k];
-                let z = to[2] - firsts.position[2][k];
-                let squared = x * x + y * y + z * z;
-                let inverse = 1.0 / squared.sqrt();
-                let (x, y, z) = (x * inverse, y * inverse, z * inverse);
-                let along = |rows: &[Lanes; 3]| x * rows[0][k] + y * rows[1][k] + z * rows[2][k];
-                let against = |normal: [f32; 3]| -(x * normal[0] + y * normal[1] + z * normal[2]);
-                let leaving = along(&firsts.normal);
-                let honest = (along(&firsts.geometric_normal) > 0.0) | (firsts.lifted[k] > 0.0);
-                let (arriving, shaded) = (against(geometric), against(shading));
+                let direction = at(&toward, k);
+                let (arriving, shaded) = (-direction.dot(geometric), -direction.dot(shading));
                 // Who looks at a flatter angle would see another shading frame.
                 let alike = (shaded >= LEAST_COSINE) | (shaded >= arriving);
-                let seen = (leaving > 0.0) & (arriving > 0.0) & alike & honest;
                 // Not a number where both points are one.
-                let density = leaving * FRAC_1_PI * arriving / squared;
-                let density = if seen { density } else { 0.0 };
-                row[k] = if density < f32::INFINITY { density } else { 0.0 };
-            }
-            for (k, density) in row.iter_mut().enumerate() {
+                let density = scattered.pdf[k] * arriving / squared[k];
+                let seen = (density < f32::INFINITY) & (arriving > 0.0) & alike;
                 // Only paths of one length so far: how much longer they may get is then the same for all.
-                let alike = firsts.depth[k] + 1 == seconds.depth[j];
-                *density = if firsts.is_set(k) & alike { *density } else { 0.0 };
+                let member = firsts.points.is_at(k, seconds.depth[j].wrapping_sub(1));
+                row[k] = if seen & member { density } else { 0.0 };
+                most = if row[k] > most { row[k] } else { most };
             }
-            // Who found the point sees it, whatever was rounded.
-            row[j] = if row[j] > 0.0 { row[j] } else { f32::MIN_POSITIVE };
+            let least = most * LEAST_PART;
+            if row[j] > least {
+                row.iter_mut().for_each(|density| *density = if *density < least { 0.0 } else { *density });
+            } else {
+                // Whoever found the point by a chance that is none for the others, or by rounding, keeps it.
+                *row = std::array::from_fn(|k| if k == j { 1.0 } else { 0.0 });
+            }
         }
     }
 }
