@@ -29,8 +29,3 @@ pub(crate) const fn light_opacity(bounce: u32) -> Domain {
 pub(crate) const fn mix(bounce: u32) -> Domain {
     Domain::new(bounce, 5)
 }
-
-/// Candidates of the bundle for direct light: which emitter, where on it (two numbers), and which of them.
-pub(crate) const fn candidate(bounce: u32, draw: u32) -> Domain {
-    Domain::new(bounce, 6 + draw)
-}

@@ -37,17 +37,12 @@ pub(crate) struct Standpoint {
     pub(crate) sampler: Sampler,
 }
 
-/// Candidates that each standpoint contributes.
-pub(super) const DRAWS: u32 = 2;
-/// The most that a bundle has.
-const MOST: usize = DRAWS as usize * LANES;
-
 /// A standpoint by its lane.
 #[derive(Clone, Copy)]
 struct Place {
     lane: usize,
-    /// Which emitter, where on it, and which candidate; the last of the first draw only.
-    numbers: [[u32; 4]; DRAWS as usize],
+    /// Which emitter, where on it (two numbers), and which candidate.
+    numbers: [u32; 4],
 }
 
 impl Reuse {
@@ -66,18 +61,16 @@ impl Reuse {
         for group in standpoints.chunk_by(|a, b| bundle(a) == bundle(b)) {
             let place = |standpoint: &Standpoint| Place {
                 lane: places[standpoint.sample as usize].1 as usize,
-                numbers: std::array::from_fn(|draw| {
-                    standpoint.sampler.group_words(purpose::candidate(depth, draw as u32))
-                }),
+                numbers: standpoint.sampler.group_words(purpose::light(depth)),
             };
-            let mut members = [Place { lane: 0, numbers: [[0; 4]; DRAWS as usize] }; LANES];
+            let mut members = [Place { lane: 0, numbers: [0; 4] }; LANES];
             for (member, standpoint) in members.iter_mut().zip(group) {
                 *member = place(standpoint);
             }
             let members = &members[..group.len()];
             let bundle = &mut bundles[bundle(&group[0]) as usize];
             for member in members {
-                bundle.partners[member.lane] = (members.len() * DRAWS as usize) as f32;
+                bundle.partners[member.lane] = members.len() as f32;
             }
             bundle.light(world, depth, members, &mut ask);
         }
@@ -93,7 +86,7 @@ impl Reuse {
 impl Bundle {
     fn light(&self, world: &World, depth: u32, members: &[Place], ask: &mut impl FnMut(u32, Ray, Rgb)) {
         let candidates = draw(world, &self.firsts, members);
-        let mut bringing: Vec<Bringing> = Vec::with_capacity(MOST);
+        let mut bringing: Vec<Bringing> = Vec::with_capacity(candidates.len());
         let mut totals = [0.0_f32; LANES];
         for (j, candidate) in candidates.iter().enumerate() {
             let same = candidates[..j].iter().position(|other| other.emitter == candidate.emitter);
@@ -104,9 +97,8 @@ impl Bundle {
             let mut brought = Bringing::new(chances);
             let shine = Shine::new(world, candidate, &self.firsts.points, members.iter().map(|m| m.lane));
             let Self { firsts, gains, .. } = self;
-            let partners = (members.len() * DRAWS as usize) as f32;
-            let draws = DRAWS as f32;
-            dispatch(Weigh { firsts, gains, depth, shine: &shine, partners, draws, bringing: &mut brought });
+            let partners = members.len() as f32;
+            dispatch(Weigh { firsts, gains, depth, shine: &shine, partners, bringing: &mut brought });
             for member in members {
                 totals[member.lane] += brought.weight[member.lane];
             }
@@ -118,7 +110,7 @@ impl Bundle {
             if !(total > 0.0 && total.is_finite()) {
                 continue;
             }
-            let mut rest = hash::unit_f32(member.numbers[0][3]) * total;
+            let mut rest = hash::unit_f32(member.numbers[3]) * total;
             let mut picked = None;
             for (j, brought) in bringing.iter().enumerate() {
                 let weight = brought.weight[lane];
@@ -146,16 +138,13 @@ impl Bundle {
 
 /// The candidates that standpoints contribute.
 fn draw(world: &World, firsts: &Scatterers, members: &[Place]) -> Vec<Candidate> {
-    let candidate = |member: &Place, [choice, u, v, _]: [u32; 4]| {
+    let candidate = |member: &Place| {
+        let [choice, u, v, _] = member.numbers;
         let (from, normal) = (firsts.points.position(member.lane), firsts.receiving(member.lane));
         let chosen = world.lights.choose(from, normal, hash::unit_f64(choice))?;
         world.lights.candidate(chosen.emitter, &world.scene, [u, v].map(hash::unit_f32))
     };
-    members
-        .iter()
-        .flat_map(|member| member.numbers.map(|numbers| candidate(member, numbers)))
-        .flatten()
-        .collect()
+    members.iter().filter_map(candidate).collect()
 }
 
 /// With which chance each standpoint would choose an emitter.

@@ -5,7 +5,6 @@
 //! A and B depends on y alone, so it weighs what everyone receives from there.
 
 use super::Reuse;
-use super::direct::DRAWS;
 use super::points::{LANES, Points, at, directions_to};
 use super::scatterers::{Scattered, Scatterers};
 use crate::surface::SurfacePoint;
@@ -28,7 +27,7 @@ impl Reuse {
         let side = if point.is_front() { 1.0 } else { -1.0 };
         let (place, normal) = (point.position, point.geometric_normal * side);
         let scattered = dispatch(FoundByScattering { firsts, depth, place, normal });
-        scattering_weight(all * DRAWS as f32 * pdf_area.pdf_area, scattered)
+        scattering_weight(all * pdf_area.pdf_area, scattered)
     }
 }
 

@@ -64,10 +64,8 @@ pub(super) struct Weigh<'a> {
     /// Of the standpoints.
     pub(super) depth: u32,
     pub(super) shine: &'a Shine,
-    /// How many candidates there are.
+    /// How many standpoints there are.
     pub(super) partners: f32,
-    /// How many each standpoint contributed.
-    pub(super) draws: f32,
     pub(super) bringing: &'a mut Bringing,
 }
 
@@ -76,9 +74,9 @@ impl Task for Weigh<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let Self { firsts, gains, depth, shine, partners, draws, bringing } = self;
+        let Self { firsts, gains, depth, shine, partners, bringing } = self;
         let chances = &bringing.chances;
-        let all = chances.iter().sum::<f32>() * draws;
+        let all: f32 = chances.iter().sum();
         let mut scattered = Scattered::default();
         let mut arriving = NONE;
         // Radiance over density and weight, the same for all channels but for the radiance.
