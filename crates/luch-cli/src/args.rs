@@ -1,9 +1,11 @@
 //! What was typed.
 
 mod bench;
+mod parameters;
 mod render;
 
 pub(crate) use bench::{BenchArgs, BenchVerb, CameraArgs, Choice, RaysArgs};
+pub(crate) use parameters::ParameterArgs;
 pub(crate) use render::{PictureArgs, ProgressStyle, RenderArgs};
 
 use crate::parse;
@@ -145,6 +147,8 @@ pub(crate) struct CompareArgs {
 pub(crate) struct CheckArgs {
     /// A scene: .kdl, .gltf, .glb, .obj, .ply, .stl, .xml (Mitsuba 3)
     pub(crate) file: PathBuf,
+    #[command(flatten)]
+    pub(crate) parameters: ParameterArgs,
     /// Print one JSON object
     #[arg(long)]
     pub(crate) json: bool,

@@ -9,14 +9,14 @@ use crate::args::CheckArgs;
 use crate::failure::{Failure, Outcome};
 use crate::terminal;
 use luch::bvh::Aabb;
-use luch::formats::Loaded;
+use luch::formats::{Files, Loaded};
 use luch::render::Film;
 use luch::scene::{Scene, Shape};
 use meshes::MeshReport;
 use report::{CameraReport, Counts, Memory, Report, TextureReport};
 
 pub(crate) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
-    let loaded = luch::load(&args.file)?;
+    let loaded = args.parameters.load(&args.file, &Files::disk())?;
     let report = examine(&loaded, &args.file.display().to_string());
     if args.json {
         terminal::say(&serde_json::to_string(&report)?);
@@ -41,7 +41,7 @@ fn examine(loaded: &Loaded, file: &str) -> Report {
         picture: [scene.settings.width, scene.settings.height],
         samples: loaded.wishes.samples,
         cameras: scene.cameras.iter().map(CameraReport::of).collect(),
-        textures: scene.images.iter().map(TextureReport::of).collect(),
+        textures: scene.images.iter().map(|image| TextureReport::of(image)).collect(),
         meshes,
         warnings: texts(&loaded.warnings),
         notes: loaded.notes.clone(),
@@ -53,7 +53,7 @@ fn examine(loaded: &Loaded, file: &str) -> Report {
 fn bounds(scene: &Scene) -> Aabb {
     let mut all = Aabb::empty();
     for instance in &scene.instances {
-        let own = match &scene.shapes[instance.shape.index()] {
+        let own = match &*scene.shapes[instance.shape.index()] {
             Shape::Mesh(mesh) => mesh.bounds(),
             Shape::Sphere { radius } => {
                 Aabb::of_points([-glam::Vec3::splat(*radius), glam::Vec3::splat(*radius)])
@@ -81,7 +81,7 @@ fn count(scene: &Scene) -> Counts {
     };
     Counts {
         shapes: scene.shapes.len(),
-        triangles: scene.shapes.iter().map(triangles).sum(),
+        triangles: scene.shapes.iter().map(|shape| triangles(shape)).sum(),
         instances: scene.instances.len(),
         triangles_seen: scene.instances.iter().map(|i| triangles(&scene.shapes[i.shape.index()])).sum(),
         materials: scene.materials.len(),

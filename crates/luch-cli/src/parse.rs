@@ -7,7 +7,7 @@ pub(crate) use bench::{field_of_view, kernels, levels, point, qualities, sets, t
 use luch::image::tone::Curve;
 use luch::render::Goal;
 use luch::sampling::Sequence;
-use luch::scene::{Filter, Integrator, Normals, Property};
+use luch::scene::{Filter, Integrator, Minification, Normals, Property};
 use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
@@ -133,6 +133,12 @@ pub(crate) fn curve(text: &str) -> Result<Curve, String> {
 pub(crate) fn sequence(text: &str) -> Result<Sequence, String> {
     let names = Sequence::ALL.map(Sequence::name).join(", ");
     Sequence::from_name(text).ok_or_else(|| format!("`{text}` is no sequence; accepted are {names}"))
+}
+
+/// What becomes of textures finer than the pixels.
+pub(crate) fn texture_filter(text: &str) -> Result<Minification, String> {
+    let unknown = || format!("`{text}` is no texture filter; accepted are footprint, none");
+    Minification::from_name(text).ok_or_else(unknown)
 }
 
 /// Which normals are shaded with.

@@ -8,6 +8,7 @@ use luch::image::tone::Tone;
 use luch::render::Goal;
 use luch::scene::{Camera, Integrator, Normals, Scene, Settings};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::time::Duration;
 
 /// How a picture is made and shown, in words that people can read.
@@ -22,8 +23,12 @@ pub(crate) struct Recipe {
     seed: u64,
     normals: String,
     cull_back_faces: bool,
+    texture_filter: String,
     exposure: f32,
     tone: String,
+    /// Values for what the scene leaves open.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub(crate) parameters: BTreeMap<String, String>,
     /// When it was to be done.
     pub(crate) goal: GoalWords,
 }
@@ -70,8 +75,10 @@ impl Recipe {
             seed: settings.seed,
             normals: normals_name(settings.normals).to_owned(),
             cull_back_faces: settings.cull_back_faces,
+            texture_filter: settings.texture_filter.name().to_owned(),
             exposure: tone.exposure,
             tone: tone.curve.name().to_owned(),
+            parameters: BTreeMap::new(),
             goal: GoalWords::default(),
         }
     }
@@ -98,6 +105,7 @@ impl Recipe {
             sequence,
             filter,
             normals,
+            texture_filter,
             cull_back_faces,
         } = picture;
         if let Some(Size { width, height }) = size {
@@ -118,6 +126,9 @@ impl Recipe {
         }
         if let Some(normals) = normals {
             self.normals = normals_name(*normals).to_owned();
+        }
+        if let Some(texture_filter) = texture_filter {
+            self.texture_filter = texture_filter.name().to_owned();
         }
         self.cull_back_faces |= cull_back_faces;
         Ok(())
@@ -175,6 +186,7 @@ impl Recipe {
             seed: self.seed,
             normals: parse::normals(&self.normals).map_err(Failure::new)?,
             cull_back_faces: self.cull_back_faces,
+            texture_filter: parse::texture_filter(&self.texture_filter).map_err(Failure::new)?,
         })
     }
 
@@ -250,6 +262,7 @@ mod tests {
             seed: u64::MAX,
             normals: Normals::Flat,
             cull_back_faces: true,
+            texture_filter: luch::scene::Minification::None,
         };
         let json = Recipe::of_scene(&settings, &Tone::default()).to_json();
         assert_eq!(Recipe::from_json(&json).unwrap().settings().unwrap(), settings);

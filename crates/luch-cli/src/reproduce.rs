@@ -6,7 +6,7 @@ use crate::film_file;
 use crate::layers::NEVER;
 use crate::provenance::{self, Claim, TileRun};
 use crate::terminal;
-use luch::formats::Files;
+use luch::formats::{Files, load_with_parameters};
 use luch::image::codec::{self, Format};
 use luch::image::compare::compare;
 use luch::image::{Image, Rgb};
@@ -20,7 +20,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<Outcome, Failure> {
         .scene
         .clone()
         .map_or_else(|| find_scene(&claim.scene, &args.file, "say with --scene where it is now"), Ok)?;
-    let mut scene = luch::load(&source)?.scene;
+    let mut scene = load_with_parameters(&source, &Files::disk(), &claim.recipe.parameters)?.scene;
     let camera = claim.recipe.apply(&mut scene)?;
     let fingerprint = Fingerprint::of(&scene, &camera).to_hex();
     if fingerprint != claim.fingerprint {

@@ -34,6 +34,7 @@ pub(crate) fn load(path: &Path, files: &Files, format: Format) -> Result<Loaded,
     let mut loaded = Loaded::default();
     let bytes = files.read(path)?;
     let mesh = decode(path, &bytes, format, &mut loaded.warnings)?;
+    drop(bytes);
     let (mesh, notes) = with_normals(mesh);
     loaded.notes.extend(notes);
     let material = if mesh.colors.is_empty() {
@@ -62,6 +63,7 @@ pub(crate) fn read(
     };
     let format = by_name.or_else(|| Format::from_magic(&bytes)).ok_or_else(unknown)?;
     let mesh = decode(path, &bytes, format, warnings)?;
+    drop(bytes);
     Ok(with_normals(mesh).0)
 }
 

@@ -1,6 +1,7 @@
 //! Where bytes come from: the disk, or memory in tests.
 
 use crate::Problem;
+use crate::scene_file::normal;
 use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -25,7 +26,8 @@ impl Files {
 
     /// Files in memory, by their paths; the disk is never touched.
     pub fn memory(files: impl IntoIterator<Item = (PathBuf, Vec<u8>)>) -> Self {
-        Self { memory: Some(files.into_iter().collect()), ..Self::default() }
+        let files = files.into_iter().map(|(path, bytes)| (normal(&path), bytes)).collect();
+        Self { memory: Some(files), ..Self::default() }
     }
 
     /// The bytes of a file.
@@ -34,7 +36,7 @@ impl Files {
     /// If it is absent, no plain file, unreadable or larger than 8 GiB.
     pub fn read(&self, path: &Path) -> Result<Vec<u8>, Problem> {
         if let Some(memory) = &self.memory {
-            return memory.get(path).cloned().ok_or_else(|| Problem::new(path, "no such file"));
+            return memory.get(&normal(path)).cloned().ok_or_else(|| Problem::new(path, "no such file"));
         }
         let fail = |error: std::io::Error| match error.kind() {
             std::io::ErrorKind::NotFound => Problem::new(path, "no such file"),
@@ -68,9 +70,15 @@ impl Files {
     /// True if there is such a file.
     pub fn has(&self, path: &Path) -> bool {
         match &self.memory {
-            Some(memory) => memory.contains_key(path),
+            Some(memory) => memory.contains_key(&normal(path)),
             None => path.is_file(),
         }
+    }
+
+    /// What is equal for all paths of one file: links followed, steps out of a folder taken back. Nothing is said of files that are absent.
+    pub(crate) fn identity(&self, path: &Path) -> PathBuf {
+        let true_name = if self.memory.is_none() { path.canonicalize().ok() } else { None };
+        true_name.unwrap_or_else(|| normal(path))
     }
 
     /// The path that `reference`, written in `file`, means: relative to the folder of `file`, either slash accepted.

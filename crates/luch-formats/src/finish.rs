@@ -26,7 +26,7 @@ pub(crate) fn finish(path: &Path, mut loaded: Loaded) -> Result<Loaded, LoadErro
     }
     let mut problems = loaded.scene.problems();
     for (place, shape) in loaded.scene.shapes.iter().enumerate() {
-        if let Shape::Mesh(mesh) = shape {
+        if let Shape::Mesh(mesh) = &**shape {
             problems.extend(mesh.validate().iter().map(|problem| format!("mesh {place}: {problem}")));
         }
     }

@@ -1,6 +1,7 @@
 //! Which format a file is of, and who reads it.
 
 use crate::resolve::{self, Imports};
+use crate::scene_file::clip;
 use crate::{Files, LoadError, Loaded, Problem};
 use crate::{bare_mesh, gltf, mitsuba, obj_scene};
 use luch_mesh::codec::Format as MeshFormat;
@@ -94,11 +95,17 @@ pub(crate) fn read(path: &Path, files: &Files, imports: &mut Imports) -> Result<
                 .ok_or_else(|| unknown.help(format!("accepted are {accepted}")))?
         }
     };
+    if format != SceneFormat::Mitsuba
+        && let Some(name) = imports.parameters().keys().next()
+    {
+        let message = format!("has no parameter \"{}\"", clip(name));
+        return Err(Problem::new(path, message).help("only scenes of Mitsuba (.xml) have parameters").into());
+    }
     match format {
         SceneFormat::Kdl => resolve::load(path, files, imports),
-        SceneFormat::Gltf => gltf::load(path, files),
-        SceneFormat::Mitsuba => mitsuba::load(path, files, &imports.parameters()),
-        SceneFormat::Obj => obj_scene::load(path, files),
+        SceneFormat::Gltf => gltf::load(path, files, imports.pictures()),
+        SceneFormat::Mitsuba => mitsuba::load(path, files, imports.pictures(), &imports.parameters()),
+        SceneFormat::Obj => obj_scene::load(path, files, imports.pictures()),
         SceneFormat::Ply => bare_mesh::load(path, files, MeshFormat::Ply),
         SceneFormat::Stl => bare_mesh::load(path, files, MeshFormat::Stl),
     }

@@ -29,7 +29,7 @@ pub fn bounding_sphere(scene: &Scene) -> Option<BoundingSphere> {
     let own: Vec<Option<BoundingSphere>> = scene
         .shapes
         .iter()
-        .map(|shape| match shape {
+        .map(|shape| match &**shape {
             Shape::Mesh(mesh) => measure::bounding_sphere(mesh),
             Shape::Sphere { radius } | Shape::Disc { radius } => {
                 Some(BoundingSphere { center: Vec3::ZERO, radius: *radius })

@@ -26,6 +26,7 @@ mod texture;
 mod uri;
 mod vertices;
 
+use crate::images::{Images, Pictures};
 use crate::{Files, LoadError, Loaded, Problem};
 use budget::Budget;
 use buffer::Buffers;
@@ -47,11 +48,11 @@ use texture::{ImageSource, TextureKey};
 ///
 /// # Errors
 /// If the file or one of its buffers cannot be read, or the file contradicts itself or requires what is not known.
-pub(crate) fn load(path: &Path, files: &Files) -> Result<Loaded, LoadError> {
-    Ok(read(path, files)?)
+pub(crate) fn load(path: &Path, files: &Files, pictures: Pictures) -> Result<Loaded, LoadError> {
+    Ok(read(path, files, pictures)?)
 }
 
-fn read(file: &Path, files: &Files) -> Result<Loaded, Problem> {
+fn read(file: &Path, files: &Files, pictures: Pictures) -> Result<Loaded, Problem> {
     let bytes = files.read(file)?;
     let size = bytes.len() as u64;
     let mut notices = Notices::new(file);
@@ -64,7 +65,7 @@ fn read(file: &Path, files: &Files) -> Result<Loaded, Problem> {
     let mut budget = Budget::new(size.saturating_add(buffers.total));
     let document = Document::new(root, buffers, &mut budget, file, files)?;
     let hierarchy = Hierarchy::build(&document, &mut notices)?;
-    let mut import = Import::new(document, hierarchy, budget, notices)?;
+    let mut import = Import::new(document, hierarchy, budget, notices, Images::new(files, pictures))?;
     import.place_nodes()?;
     let Import { scene, notices, has_unlit, .. } = import;
     let note = "unlit materials emit their own colour, and so light what is near them";
@@ -88,8 +89,7 @@ struct Import<'a> {
     materials: BTreeMap<Option<usize>, Variants>,
     textures: BTreeMap<TextureKey, Option<Id<Texture>>>,
     images: BTreeMap<ImageSource, Option<Id<Bitmap>>>,
-    /// Pixels decoded so far.
-    pixels: u64,
+    pictures: Images<'a>,
     camera_names: BTreeSet<String>,
     /// Whether a material is one of KHR_materials_unlit.
     has_unlit: bool,
@@ -101,6 +101,7 @@ impl<'a> Import<'a> {
         hierarchy: Hierarchy,
         budget: Budget,
         notices: Notices,
+        pictures: Images<'a>,
     ) -> Result<Self, Problem> {
         Ok(Self {
             has_vertex_colors: has_vertex_colors(&document)?,
@@ -113,7 +114,7 @@ impl<'a> Import<'a> {
             materials: BTreeMap::new(),
             textures: BTreeMap::new(),
             images: BTreeMap::new(),
-            pixels: 0,
+            pictures,
             camera_names: BTreeSet::new(),
             has_unlit: false,
         })

@@ -107,7 +107,7 @@ pub fn load_with(path: &Path, files: &Files) -> Result<Loaded, LoadError> {
 }
 
 /// Reads the scene or mesh at `path` as [`load_with`] does, with values for the parameters that a Mitsuba scene declares with
-/// `<default name="…">` or uses as `$name`. Other formats have no parameters and take no notice of them.
+/// `<default name="…">` or uses as `$name`. Other formats have no parameters: a value for one is an error.
 ///
 /// # Errors
 /// As [`load_with`], and if the scene has no parameter of a name.

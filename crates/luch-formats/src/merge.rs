@@ -1,20 +1,22 @@
 //! One scene put inside another.
 
+use crate::images::MOST_PIXELS;
 use crate::material_values::values;
 use glam::{Affine3A, Mat3};
 use luch_scene::{Environment, Id, Light, Scene, Shape, Texture, TextureUse};
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
-/// Most things in one list of a scene, most triangles and most pixels, with all that is imported.
+/// Most things in one list of a scene, most and most triangles, with all that is imported.
 const MOST_THINGS: usize = 1 << 22;
 const MOST_TRIANGLES: usize = 1 << 26;
-const MOST_PIXELS: u64 = 1 << 29;
 
-/// Where the things of another scene begin in this one's lists.
-pub(crate) struct Offsets {
-    shapes: u32,
+/// Where the things of another scene are in this one's lists: each shape and picture, and the first material and texture.
+pub(crate) struct Places {
+    shapes: Vec<u32>,
+    images: Vec<u32>,
     materials: u32,
     textures: u32,
-    images: u32,
 }
 
 /// Says in words if `scene` would become too large with `other` in it; `is_known` if [`bring`] was done before.
@@ -25,7 +27,7 @@ pub(crate) fn check_size(scene: &Scene, other: &Scene, is_known: bool) -> Result
     let triangles = |s: &Scene| {
         s.shapes
             .iter()
-            .map(|shape| if let Shape::Mesh(mesh) = shape { mesh.triangles.len() } else { 0 })
+            .map(|shape| if let Shape::Mesh(mesh) = &**shape { mesh.triangles.len() } else { 0 })
             .sum::<usize>()
     };
     if placed(scene) + placed(other) > MOST_THINGS {
@@ -47,34 +49,32 @@ pub(crate) fn check_size(scene: &Scene, other: &Scene, is_known: bool) -> Result
 }
 
 /// Appends the shapes, materials, textures and images of `other`, which [`place`] then refers to.
-pub(crate) fn bring(scene: &mut Scene, other: &Scene) -> Offsets {
-    let offset = Offsets {
-        shapes: scene.shapes.len() as u32,
+pub(crate) fn bring(scene: &mut Scene, other: &Scene) -> Places {
+    let places = Places {
+        shapes: share(&mut scene.shapes, &other.shapes),
+        images: share(&mut scene.images, &other.images),
         materials: scene.materials.len() as u32,
         textures: scene.textures.len() as u32,
-        images: scene.images.len() as u32,
     };
-    scene.images.extend_from_slice(&other.images);
-    scene.shapes.extend_from_slice(&other.shapes);
     for texture in &other.textures {
         let mut texture = texture.clone();
         if let Texture::Image { image, .. } = &mut texture {
-            *image = moved(*image, offset.images);
+            *image = Id::new(places.images[image.index()]);
         }
         scene.textures.push(texture);
     }
-    append_materials(scene, other, &offset);
-    offset
+    append_materials(scene, other, &places);
+    places
 }
 
 /// Appends the instances, lights and cameras of `other`, placed by `placement`, and its environment if there is none.
 /// Settings stay as they are.
-pub(crate) fn place(scene: &mut Scene, other: &Scene, offset: &Offsets, placement: &Affine3A) {
+pub(crate) fn place(scene: &mut Scene, other: &Scene, places: &Places, placement: &Affine3A) {
     for instance in &other.instances {
         let mut instance = instance.clone();
-        instance.shape = moved(instance.shape, offset.shapes);
+        instance.shape = Id::new(places.shapes[instance.shape.index()]);
         for material in &mut instance.materials {
-            *material = moved(*material, offset.materials);
+            *material = moved(*material, places.materials);
         }
         instance.placement = *placement * instance.placement;
         scene.instances.push(instance);
@@ -89,7 +89,7 @@ pub(crate) fn place(scene: &mut Scene, other: &Scene, offset: &Offsets, placemen
         scene.environment = other.environment.map(|environment| match environment {
             Environment::Constant { .. } => environment,
             Environment::LatLong { image, scale, rotation } => Environment::LatLong {
-                image: moved(image, offset.images),
+                image: Id::new(places.images[image.index()]),
                 scale,
                 rotation: rotation_of(placement) * rotation,
             },
@@ -97,12 +97,25 @@ pub(crate) fn place(scene: &mut Scene, other: &Scene, offset: &Offsets, placemen
     }
 }
 
+/// Appends what the list does not hold yet, and tells the places of all.
+fn share<T>(list: &mut Vec<Arc<T>>, more: &[Arc<T>]) -> Vec<u32> {
+    let mut known: BTreeMap<*const T, u32> =
+        (0..).zip(&*list).map(|(i, old)| (Arc::as_ptr(old), i)).collect();
+    let place_of = |thing: &Arc<T>| {
+        *known.entry(Arc::as_ptr(thing)).or_insert_with(|| {
+            list.push(Arc::clone(thing));
+            list.len() as u32 - 1
+        })
+    };
+    more.iter().map(place_of).collect()
+}
+
 fn moved<T>(id: Id<T>, by: u32) -> Id<T> {
     Id::new(id.index() as u32 + by)
 }
 
-fn append_materials(scene: &mut Scene, other: &Scene, offset: &Offsets) {
-    let moved_use = |used: &mut TextureUse| used.texture = moved(used.texture, offset.textures);
+fn append_materials(scene: &mut Scene, other: &Scene, places: &Places) {
+    let moved_use = |used: &mut TextureUse| used.texture = moved(used.texture, places.textures);
     for material in &other.materials {
         let mut material = material.clone();
         if let Some(map) = &mut material.normal_map {
@@ -116,7 +129,7 @@ fn append_materials(scene: &mut Scene, other: &Scene, offset: &Offsets) {
             scalar.texture.iter_mut().for_each(|(used, _)| moved_use(used));
         }
         for part in all.parts {
-            *part = moved(*part, offset.materials);
+            *part = moved(*part, places.materials);
         }
         scene.materials.push(material);
     }

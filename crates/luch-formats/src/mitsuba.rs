@@ -29,7 +29,7 @@ mod transform;
 mod tree;
 mod value;
 
-use crate::images::Images;
+use crate::images::{Images, Pictures};
 use crate::scene_file::{Report, Span};
 use crate::{Files, LoadError, Loaded, Warning, Wishes};
 use glam::DAffine3;
@@ -47,6 +47,7 @@ use tree::{Document, Tag};
 pub(crate) fn load(
     path: &Path,
     files: &Files,
+    pictures: Pictures,
     parameters: &BTreeMap<String, String>,
 ) -> Result<Loaded, LoadError> {
     let read::Reading { report, document, .. } = read::Reading::read(path, files, parameters)?;
@@ -58,7 +59,7 @@ pub(crate) fn load(
         notices: Notices::default(),
         warnings: Vec::new(),
         notes: Vec::new(),
-        images: Images::new(files),
+        images: Images::new(files, pictures),
         scene: Scene::default(),
         wishes: Wishes::default(),
         materials: BTreeMap::new(),

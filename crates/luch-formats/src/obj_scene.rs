@@ -4,7 +4,7 @@
 
 mod material;
 
-use crate::images::Images;
+use crate::images::{Images, Pictures};
 use crate::{Files, LoadError, Loaded, Problem, Warning, bare_mesh};
 use glam::Affine3A;
 use luch_mesh::codec::mtl::{self, MtlMaterial};
@@ -23,12 +23,15 @@ struct Found {
 }
 
 /// Reads an OBJ file and the material files it names.
-pub(crate) fn load(path: &Path, files: &Files) -> Result<Loaded, LoadError> {
+pub(crate) fn load(path: &Path, files: &Files, pictures: Pictures) -> Result<Loaded, LoadError> {
     let bytes = files.read(path)?;
     let file = obj::decode(&bytes).map_err(|error| bare_mesh::problem(path, &bytes, &error))?;
     let mut warnings: Vec<Warning> =
         file.warnings.iter().map(|warning| bare_mesh::told(path, &bytes, warning)).collect();
-    let triangulation = file.mesh.triangulation();
+    // What is not needed any more goes before normals are made, so that it is never beside them in memory.
+    let obj::ObjFile { mesh: polygons, materials: names, libraries, .. } = file;
+    let triangulation = polygons.triangulation();
+    drop((bytes, polygons));
     if triangulation.dropped_faces > 0 {
         let message = format!("{} faces without area are left out", triangulation.dropped_faces);
         warnings.push(Warning::new(path, message));
@@ -39,15 +42,15 @@ pub(crate) fn load(path: &Path, files: &Files) -> Result<Loaded, LoadError> {
     }
     let mesh = bare_mesh::checked(path, triangulation.mesh)?;
     let (mesh, note) = bare_mesh::with_normals(mesh);
-    let library = library(path, files, &file.libraries, &mut warnings)?;
+    let library = library(path, files, &libraries, &mut warnings)?;
 
     let mut notes: Vec<String> = note.into_iter().collect();
-    let mut conversion = material::Conversion::new(Images::new(files), files);
+    let mut conversion = material::Conversion::new(Images::new(files, pictures), files);
     let mut scene = Scene::default();
     let mut fallback = None;
     let has_colors = !mesh.colors.is_empty();
     let mut materials: Vec<Id<Material>> = Vec::new();
-    let names: &[String] = if file.materials.is_empty() { &[String::new()] } else { &file.materials };
+    let names: &[String] = if names.is_empty() { &[String::new()] } else { &names };
     for name in names {
         let id = match library.get(name.as_str()) {
             Some(found) => conversion.convert(&found.file, &found.material, &mut scene, &mut warnings),

@@ -3,9 +3,9 @@
 mod materials;
 mod meshes;
 
-use crate::images::Images;
+use crate::images::{Images, Pictures};
 use crate::scene_file::{
-    self, EnvironmentSource, Report, SceneFile, ShapeSource, Span, Spanned, advice, clip,
+    self, EnvironmentSource, ObjectSource, Report, SceneFile, ShapeSource, Span, Spanned, advice, clip,
 };
 use crate::{Files, LoadError, Loaded, Problem, Warning, format, merge, neutral_sky};
 use luch_image::Rgb;
@@ -24,6 +24,8 @@ pub(crate) struct Imports {
     open: Vec<PathBuf>,
     /// Those read before, `None` if they are wrong: a file that is imported often is read once.
     known: BTreeMap<PathBuf, Option<Rc<Scene>>>,
+    /// The pictures of all of them.
+    pictures: Pictures,
     /// Values for the parameters of the file that is loaded, not of those it imports.
     parameters: BTreeMap<String, String>,
 }
@@ -32,6 +34,11 @@ impl Imports {
     /// No files yet; `parameters` are for the first.
     pub(crate) fn new(parameters: &BTreeMap<String, String>) -> Self {
         Self { parameters: parameters.clone(), ..Self::default() }
+    }
+
+    /// The pictures of all files that are read.
+    pub(crate) fn pictures(&self) -> Pictures {
+        self.pictures.clone()
     }
 
     /// The parameters for a file that is read now.
@@ -47,11 +54,12 @@ impl Imports {
 pub(crate) fn load(path: &Path, files: &Files, imports: &mut Imports) -> Result<Loaded, LoadError> {
     let (scene_file, report) = scene_file::read(path, files)?;
     imports.open.push(path.to_owned());
+    let images = Images::new(files, imports.pictures());
     let resolver = Resolver {
         files,
         imports,
         report,
-        images: Images::new(files),
+        images,
         scene: Scene::default(),
         warnings: Vec::new(),
         notes: Vec::new(),
@@ -76,11 +84,11 @@ struct Resolver<'a> {
 type Names = BTreeMap<String, usize>;
 
 impl Resolver<'_> {
-    fn resolve(mut self, file: SceneFile) -> Result<Loaded, LoadError> {
+    fn resolve(mut self, mut file: SceneFile) -> Result<Loaded, LoadError> {
         self.scene.settings = file.settings.as_ref().map(|settings| settings.value).unwrap_or_default();
         let uses = self.materials(&file);
         let shapes = self.meshes(&file);
-        self.objects(&file, &uses, &shapes);
+        self.objects(std::mem::take(&mut file.objects), &uses, &shapes);
         self.scene.lights = file.lights;
         self.scene.cameras = file.cameras.into_iter().map(|camera| camera.value).collect();
         self.environment(file.environment);
@@ -125,19 +133,32 @@ impl Resolver<'_> {
         found
     }
 
-    fn objects(&mut self, file: &SceneFile, uses: &[Option<Id<Material>>], meshes: &meshes::Meshes) {
+    fn objects(
+        &mut self,
+        objects: Vec<ObjectSource>,
+        uses: &[Option<Id<Material>>],
+        meshes: &meshes::Meshes,
+    ) {
         let mut clay = None;
-        for object in &file.objects {
+        // Equal shapes are one, by kind and bits of the radius.
+        let mut known: BTreeMap<(u8, u32), Id<Shape>> = BTreeMap::new();
+        for object in objects {
             let shape = match &object.shape {
                 ShapeSource::Mesh(name) => {
                     self.find("mesh", &meshes.names, name).and_then(|at| meshes.shapes[at])
                 }
                 ShapeSource::InlineMesh(place) => meshes.shapes[*place],
                 ShapeSource::Sphere { radius } => {
-                    Some(self.scene.add_shape(Shape::Sphere { radius: *radius }))
+                    let new = || self.scene.add_shape(Shape::Sphere { radius: *radius });
+                    Some(*known.entry((0, radius.to_bits())).or_insert_with(new))
                 }
-                ShapeSource::Disc { radius } => Some(self.scene.add_shape(Shape::Disc { radius: *radius })),
-                ShapeSource::Plane => Some(self.scene.add_shape(Shape::Plane)),
+                ShapeSource::Disc { radius } => {
+                    let new = || self.scene.add_shape(Shape::Disc { radius: *radius });
+                    Some(*known.entry((1, radius.to_bits())).or_insert_with(new))
+                }
+                ShapeSource::Plane => {
+                    Some(*known.entry((2, 0)).or_insert_with(|| self.scene.add_shape(Shape::Plane)))
+                }
             };
             let mut materials: Vec<Id<Material>> =
                 object.materials.iter().filter_map(|&place| uses[place]).collect();
@@ -146,27 +167,25 @@ impl Resolver<'_> {
                     .push(*clay.get_or_insert_with(|| self.scene.add_material(crate::bare_mesh::clay())));
             }
             let (Some(shape), false) = (shape, materials.is_empty()) else { continue };
-            if self.emits_badly(shape, &materials, object) {
+            if self.emits_badly(shape, &materials, &object) {
                 continue;
             }
-            let name = object.name.clone();
-            self.scene.instances.push(Instance { name, shape, materials, placement: object.placement });
+            let ObjectSource { name, placements, .. } = object;
+            let copy =
+                |placement| Instance { name: name.clone(), shape, materials: materials.clone(), placement };
+            self.scene.instances.extend(placements.into_iter().map(copy));
         }
     }
 
     /// True, and a problem, if a lamp has a form that light cannot be drawn from.
-    fn emits_badly(
-        &mut self,
-        shape: Id<Shape>,
-        materials: &[Id<Material>],
-        object: &scene_file::ObjectSource,
-    ) -> bool {
+    fn emits_badly(&mut self, shape: Id<Shape>, materials: &[Id<Material>], object: &ObjectSource) -> bool {
         let emits = materials.iter().any(|id| self.scene.materials[id.index()].emission.is_some());
-        let m = object.placement.matrix3;
-        let message = match self.scene.shapes[shape.index()] {
+        let message = match *self.scene.shapes[shape.index()] {
             _ if !emits => return false,
             Shape::Plane => "a plane without end cannot emit: its light would have no bounds",
-            Shape::Sphere { .. } | Shape::Disc { .. } if !keeps_angles(&m) => {
+            Shape::Sphere { .. } | Shape::Disc { .. }
+                if !object.placements.iter().all(|place| keeps_angles(&place.matrix3)) =>
+            {
                 "an emitting sphere or disc cannot be stretched"
             }
             _ => return false,
@@ -200,7 +219,7 @@ impl Resolver<'_> {
 
     fn put_imports(&mut self, imports: &[scene_file::ImportSource]) {
         // What a file brings along is put into the scene once, however often its objects are.
-        let mut brought: BTreeMap<PathBuf, merge::Offsets> = BTreeMap::new();
+        let mut brought: BTreeMap<PathBuf, merge::Places> = BTreeMap::new();
         for import in imports {
             let path = self.path(&import.path);
             let Some(other) = self.import(&path, &import.path.span) else { continue };
@@ -212,8 +231,8 @@ impl Resolver<'_> {
                 let message = "the environment of this import is left out: the scene has one";
                 self.warnings.push(self.report.problem(&import.path.span, message));
             }
-            let offsets = brought.entry(path).or_insert_with(|| merge::bring(&mut self.scene, &other));
-            merge::place(&mut self.scene, &other, offsets, &import.placement);
+            let places = brought.entry(path).or_insert_with(|| merge::bring(&mut self.scene, &other));
+            merge::place(&mut self.scene, &other, places, &import.placement);
         }
     }
 

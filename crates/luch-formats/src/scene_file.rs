@@ -7,6 +7,7 @@
 
 mod camera;
 mod color;
+mod copies;
 mod decoder;
 mod fields;
 mod light;
@@ -148,7 +149,8 @@ pub(crate) struct ObjectSource {
     pub(crate) shape: ShapeSource,
     /// Places in [`SceneFile::material_uses`], one for each slot; empty for clay.
     pub(crate) materials: Vec<usize>,
-    pub(crate) placement: Affine3A,
+    /// Of the object and its copies, at least one.
+    pub(crate) placements: Vec<Affine3A>,
 }
 
 /// Another file put into the world.

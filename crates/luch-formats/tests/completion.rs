@@ -82,7 +82,7 @@ fn a_bare_mesh_is_clay_under_a_neutral_sky() {
     assert!(matches!(scene.environment, Some(Environment::LatLong { .. })));
     let Surface::Diffuse { color } = &scene.materials[0].surface else { panic!() };
     assert!((color.factor.luminance() - 0.7).abs() < 0.02);
-    let Shape::Mesh(read) = &scene.shapes[0] else { panic!() };
+    let Shape::Mesh(read) = &*scene.shapes[0] else { panic!() };
     // All edges of the ball are bent by less than 30°: one normal for each position, near the true one.
     assert_eq!(read.normals.values.len(), read.positions.len());
     for triangle in 0..read.triangles.len() {
@@ -98,7 +98,7 @@ fn a_bare_mesh_is_clay_under_a_neutral_sky() {
 fn edges_bent_by_more_than_30_degrees_stay_hard() {
     let mesh = generate::cuboid(Vec3::ONE, [1; 3]);
     let bare = TriangleMesh::new(mesh.positions.clone(), mesh.triangles.clone());
-    let Shape::Mesh(read) = &load("box.stl", codec::stl::encode_binary(&bare)).scene.shapes[0] else {
+    let Shape::Mesh(read) = &*load("box.stl", codec::stl::encode_binary(&bare)).scene.shapes[0] else {
         panic!()
     };
     for triangle in 0..read.triangles.len() {
@@ -115,7 +115,7 @@ fn vertex_colours_of_a_ply_file_are_used() {
     let scene = load("a.ply", text.into()).scene;
     let Surface::Diffuse { color } = &scene.materials[0].surface else { panic!() };
     assert!(color.vertex_color && color.factor == Rgb::WHITE);
-    let Shape::Mesh(mesh) = &scene.shapes[0] else { panic!() };
+    let Shape::Mesh(mesh) = &*scene.shapes[0] else { panic!() };
     assert_eq!(mesh.colors.values[0], glam::Vec4::new(1.0, 0.0, 0.0, 1.0));
 }
 

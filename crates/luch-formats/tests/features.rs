@@ -32,7 +32,7 @@ fn a_file_that_says_nothing_has_default_settings() {
 #[test]
 fn settings_arrive() {
     let text = "settings { size 640 360; integrator \"plain-path\" { max-depth 7 }; sequence \"halton\"\n
-        filter \"gaussian\" radius=2 deviation=0.6; seed 18446744073709551615; normals \"flat\"; cull-back-faces }\nobject { sphere }";
+        filter \"gaussian\" radius=2 deviation=0.6; seed 18446744073709551615; normals \"flat\"; cull-back-faces; texture-filter \"none\" }\nobject { sphere }";
     let expected = Settings {
         width: 640,
         height: 360,
@@ -42,6 +42,7 @@ fn settings_arrive() {
         seed: u64::MAX,
         normals: Normals::Flat,
         cull_back_faces: true,
+        texture_filter: luch_scene::Minification::None,
     };
     assert_eq!(load(text).scene.settings, expected);
     let integrator = |text: &str| {
@@ -276,7 +277,7 @@ fn shapes_and_meshes_arrive() {
         object \"one\" mesh=\"file\"\nobject \"two\" mesh=\"file\" { scale 2 }\n\
         object mesh=\"hard\"\nobject { disc radius=2 }\nobject { plane }\nobject { mesh { torus; normals \"flat\" } }";
     let scene = load_files(&[("main.kdl", text.into()), ("a.obj", obj.into())]).scene;
-    let shape = |place: usize| &scene.shapes[scene.instances[place].shape.index()];
+    let shape = |place: usize| &*scene.shapes[scene.instances[place].shape.index()];
     assert_eq!(scene.instances[0].shape, scene.instances[1].shape, "instances share their mesh");
     assert_eq!((scene.instances[0].name.as_str(), scene.instances[1].name.as_str()), ("one", "two"));
     let Shape::Mesh(mesh) = shape(0) else { panic!() };

@@ -29,7 +29,7 @@ fn the_lecture_shows_flat_and_interpolated_normals_of_one_ball() {
     let scene = load(&folder().join("lecture.kdl")).unwrap().scene;
     let mesh = |name: &str| {
         let instance = scene.instances.iter().find(|instance| instance.name == name).unwrap();
-        match &scene.shapes[instance.shape.index()] {
+        match &*scene.shapes[instance.shape.index()] {
             Shape::Mesh(mesh) => mesh,
             other => panic!("{other:?}"),
         }
@@ -41,7 +41,7 @@ fn the_lecture_shows_flat_and_interpolated_normals_of_one_ball() {
     let triangles: usize = scene
         .shapes
         .iter()
-        .map(|shape| if let Shape::Mesh(mesh) = shape { mesh.triangles.len() } else { 0 })
+        .map(|shape| if let Shape::Mesh(mesh) = &**shape { mesh.triangles.len() } else { 0 })
         .sum();
     assert!(triangles < 50_000, "the scene stays quick to render: {triangles} triangles");
 }

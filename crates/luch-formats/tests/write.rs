@@ -80,7 +80,7 @@ fn meshes_read_back() {
         let path = folder.path().join(name);
         save_mesh(&path, &mesh).unwrap();
         let scene = load(&path).unwrap().scene;
-        let Shape::Mesh(read) = &scene.shapes[0] else { panic!() };
+        let Shape::Mesh(read) = &*scene.shapes[0] else { panic!() };
         assert_eq!(read.triangles.len(), mesh.triangles.len(), "{name}");
         assert_eq!(luch_mesh::measure::volume(read), 6.0, "{name}");
     }

@@ -29,7 +29,7 @@ impl Geometry {
     /// Builds the trees.
     pub(crate) fn build(scene: &Scene) -> Self {
         let closed: Vec<bool> = match scene.settings.cull_back_faces {
-            true => scene.shapes.par_iter().map(is_closed).collect(),
+            true => scene.shapes.par_iter().map(|shape| is_closed(shape)).collect(),
             false => vec![false; scene.shapes.len()],
         };
         let placed: Vec<_> =
@@ -140,7 +140,7 @@ impl Geometry {
     /// Whether a surface that is not there everywhere stops the ray: a pure function of ray, hit and key.
     fn stops(&self, scene: &Scene, ray: &Ray, hit: &InstanceHit, key: impl Fn() -> u64) -> bool {
         let instance = &scene.instances[hit.instance as usize];
-        let local = match scene.shapes[instance.shape.index()] {
+        let local = match *scene.shapes[instance.shape.index()] {
             Shape::Mesh(_) => Vec3::ZERO,
             _ => instance.placement.inverse().transform_point3(ray.at(hit.hit.t)),
         };
@@ -231,7 +231,7 @@ fn transmits(scene: &Scene, material: &luch_scene::Material) -> bool {
 }
 
 fn no_camera_inside(scene: &Scene, instance: &Instance) -> bool {
-    let bounds = match &scene.shapes[instance.shape.index()] {
+    let bounds = match &*scene.shapes[instance.shape.index()] {
         Shape::Mesh(mesh) => Aabb::of_points(mesh.positions.iter().copied()),
         Shape::Sphere { radius } => Aabb::of_points([Vec3::splat(-radius), Vec3::splat(*radius)]),
         Shape::Disc { .. } | Shape::Plane => return false,

@@ -1,5 +1,6 @@
 //! Meshes that stand in one place only, as one mesh in world coordinates: most scenes then need one tree, not two levels of them.
 
+use glam::{Affine3A, Vec3};
 use luch_bvh::{InstanceHit, Quality, TriangleBvh};
 use luch_scene::{Scene, Shape};
 use std::sync::Arc;
@@ -23,7 +24,7 @@ impl Joined {
         let (mut instances, mut first_triangles) = (Vec::new(), Vec::new());
         let (mut count, mut positions) = (0u32, 0u32);
         for (i, (instance, placed)) in scene.instances.iter().zip(placed).enumerate() {
-            let Shape::Mesh(mesh) = &scene.shapes[instance.shape.index()] else { continue };
+            let Shape::Mesh(mesh) = &*scene.shapes[instance.shape.index()] else { continue };
             let alone = users[instance.shape.index()] == 1 && !placed.filtered && !placed.cull_back;
             let after =
                 |so_far: u32, more: usize| u32::try_from(more).ok().and_then(|more| so_far.checked_add(more));
@@ -39,15 +40,30 @@ impl Joined {
 
     /// The tree over the joined triangles.
     pub(crate) fn geometry(&self, scene: &Scene) -> luch_bvh::Geometry {
+        let build = |positions: &[Vec3], triangles: &[[u32; 3]]| {
+            luch_bvh::Geometry::Triangles(Arc::new(TriangleBvh::build(
+                positions,
+                triangles,
+                Quality::Balanced,
+            )))
+        };
+        // A mesh that stands where it was made needs no copy.
+        if let [only] = self.instances[..]
+            && let instance = &scene.instances[only as usize]
+            && instance.placement == Affine3A::IDENTITY
+            && let Shape::Mesh(mesh) = &*scene.shapes[instance.shape.index()]
+        {
+            return build(&mesh.positions, &mesh.triangles);
+        }
         let (mut positions, mut triangles) = (Vec::new(), Vec::new());
         for &instance in &self.instances {
             let instance = &scene.instances[instance as usize];
-            let Shape::Mesh(mesh) = &scene.shapes[instance.shape.index()] else { continue };
+            let Shape::Mesh(mesh) = &*scene.shapes[instance.shape.index()] else { continue };
             let first = positions.len() as u32;
             positions.extend(mesh.positions.iter().map(|&p| instance.placement.transform_point3(p)));
             triangles.extend(mesh.triangles.iter().map(|t| t.map(|corner| corner + first)));
         }
-        luch_bvh::Geometry::Triangles(Arc::new(TriangleBvh::build(&positions, &triangles, Quality::Balanced)))
+        build(&positions, &triangles)
     }
 
     /// A hit of the joined mesh, told by the scene's instance and its own triangle.

@@ -149,13 +149,17 @@ impl Lights {
     /// Adds the lamps of a mesh.
     fn add_mesh(&mut self, scene: &Scene, index: u32) {
         let instance = &scene.instances[index as usize];
-        let Shape::Mesh(mesh) = &scene.shapes[instance.shape.index()] else { return };
+        let Shape::Mesh(mesh) = &*scene.shapes[instance.shape.index()] else { return };
         if (0..instance.materials.len() as u16).all(|slot| emission_of(scene, index, slot).is_none()) {
             return;
         }
         let most = MOST_EMITTERS - self.flat.len();
         let emission = |slot| emission_of(scene, index, slot);
         let MeshLamps { lamps, places } = mesh_lamps(scene, mesh, index, most, emission);
+        // Copies past the most lamps there may be take no memory.
+        if lamps.is_empty() {
+            return;
+        }
         let first = self.flat.len() as u32;
         self.places.add(index, places.into_iter().map(|place| place.map(|place| first + place)));
         self.flat.extend(lamps);
@@ -166,7 +170,7 @@ impl Lights {
         let instance = &scene.instances[index as usize];
         let Some((material, emission)) = emission_of(scene, index, 0) else { return };
         let placement = &instance.placement;
-        let emitter = match &scene.shapes[instance.shape.index()] {
+        let emitter = match &*scene.shapes[instance.shape.index()] {
             Shape::Sphere { radius } => {
                 Emitter::Ball(Box::new(BallEmitter::new(*radius, placement, index, material, &emission)))
             }

@@ -37,7 +37,7 @@ pub(crate) struct PlainHit {
 impl Plain {
     pub(crate) fn new(scene: &Scene) -> Self {
         let instance = |instance: &luch_scene::Instance| {
-            let Shape::Mesh(mesh) = &scene.shapes[instance.shape.index()] else { return None };
+            let Shape::Mesh(mesh) = &*scene.shapes[instance.shape.index()] else { return None };
             let has_normals = !mesh.triangles.is_empty() && mesh.corner_normals(0).is_some();
             let smooth = scene.settings.normals == Normals::Interpolated && has_normals;
             let map = instance.placement;

@@ -94,7 +94,7 @@ fn glowing_mesh(count: u64) -> Scene {
 fn under_sky(mut scene: Scene) -> Scene {
     let mut pixels = vec![Rgb::gray(0.1); 16 * 8];
     pixels[37] = Rgb::gray(40.0);
-    scene.images.push(Bitmap::from_rgb(&Image::from_pixels(16, 8, pixels).unwrap()));
+    scene.images.push(Bitmap::from_rgb(&Image::from_pixels(16, 8, pixels).unwrap()).into());
     let image = Id::new(scene.images.len() as u32 - 1);
     scene.environment = Some(Environment::LatLong { image, scale: Rgb::gray(1.0), rotation: Mat3::IDENTITY });
     for (x, angular_radius) in [(0.6, 0.0), (-0.6, 0.1)] {

@@ -179,7 +179,9 @@ fn hot_sky(scene: &mut Scene) -> Environment {
     for dark in [2 * width + 4, 2 * width + 6, width + 5, 3 * width + 5, 7 * width] {
         pixels[dark] = Rgb::BLACK;
     }
-    scene.images.push(Bitmap::from_rgb(&Image::from_pixels(width as u32, height as u32, pixels).unwrap()));
+    scene
+        .images
+        .push(Bitmap::from_rgb(&Image::from_pixels(width as u32, height as u32, pixels).unwrap()).into());
     let rotation = Mat3::from_euler(glam::EulerRot::XYZ, 0.4, 1.0, 0.2);
     Environment::LatLong { image: Id::new(0), scale: Rgb::gray(1.0), rotation }
 }
@@ -187,7 +189,7 @@ fn hot_sky(scene: &mut Scene) -> Environment {
 fn distant() -> Vec<Case> {
     let constant = under(|_| Environment::Constant { radiance: Rgb::gray(2.0) });
     let even = under(|scene| {
-        scene.images.push(Bitmap::from_rgb(&Image::filled(8, 4, Rgb::gray(0.5))));
+        scene.images.push(Bitmap::from_rgb(&Image::filled(8, 4, Rgb::gray(0.5))).into());
         Environment::LatLong { image: Id::new(0), scale: Rgb::gray(4.0), rotation: Mat3::IDENTITY }
     });
     let known = vec![(Vec3::Y, f64::from(2.0 * PI)), (Vec3::new(0.6, 0.0, -0.8), f64::from(2.0 * PI))];

@@ -35,6 +35,6 @@ pub use light::{Environment, Light};
 pub use material::{Emission, Material, NormalMap, Opacity, Principled, Reflectance, Sides, Surface};
 pub use metal::Metal;
 pub use scene::{NamedCamera, Scene};
-pub use settings::{Filter, Integrator, Normals, Property, Settings};
+pub use settings::{Filter, Integrator, Minification, Normals, Property, Settings};
 pub use shape::{Instance, Shape};
 pub use texture::{Channel, ColorValue, ScalarValue, Texture, TextureFilter, TextureUse, Wrap};

@@ -3,18 +3,21 @@
 use crate::{Camera, Environment, Id, Instance, Light, Material, Settings, Shape, Texture};
 use luch_image::Bitmap;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// All that is to be drawn, as plain data: no file names, no units other than metres, radians and watts, nothing derived.
+///
+/// What is large, shapes and pictures, may be shared with other scenes: copies of a scene hold it once.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Scene {
     /// Forms, each in its own coordinates.
-    pub shapes: Vec<Shape>,
+    pub shapes: Vec<Arc<Shape>>,
     /// Surfaces.
     pub materials: Vec<Material>,
     /// Patterns and pictures as materials use them.
     pub textures: Vec<Texture>,
     /// Decoded pictures.
-    pub images: Vec<Bitmap>,
+    pub images: Vec<Arc<Bitmap>>,
     /// Shapes put into the world.
     pub instances: Vec<Instance>,
     /// Lamps without a surface.
@@ -38,15 +41,27 @@ pub struct NamedCamera {
 
 /// Appends to a list and returns the place.
 fn push<T>(list: &mut Vec<T>, thing: T) -> Id<T> {
-    let id = Id::new(u32::try_from(list.len()).expect("fewer than 2^32 things in a list"));
+    let id = next(list.len());
     list.push(thing);
     id
 }
 
+/// Appends something that is perhaps shared.
+fn shared<T>(list: &mut Vec<Arc<T>>, thing: Arc<T>) -> Id<T> {
+    let id = next(list.len());
+    list.push(thing);
+    id
+}
+
+/// The id of what is added to a list of `length`.
+fn next<T>(length: usize) -> Id<T> {
+    Id::new(u32::try_from(length).expect("fewer than 2^32 things in a list"))
+}
+
 impl Scene {
     /// Adds a shape.
-    pub fn add_shape(&mut self, shape: Shape) -> Id<Shape> {
-        push(&mut self.shapes, shape)
+    pub fn add_shape(&mut self, shape: impl Into<Arc<Shape>>) -> Id<Shape> {
+        shared(&mut self.shapes, shape.into())
     }
 
     /// Adds a material.
@@ -60,8 +75,8 @@ impl Scene {
     }
 
     /// Adds a picture.
-    pub fn add_image(&mut self, image: Bitmap) -> Id<Bitmap> {
-        push(&mut self.images, image)
+    pub fn add_image(&mut self, image: impl Into<Arc<Bitmap>>) -> Id<Bitmap> {
+        shared(&mut self.images, image.into())
     }
 
     /// Puts a shape of one material into the world.

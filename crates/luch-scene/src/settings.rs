@@ -22,6 +22,8 @@ pub struct Settings {
     pub normals: Normals,
     /// Skips back faces of closed opaque meshes that the camera is outside of (the lecture's optimisation 84).
     pub cull_back_faces: bool,
+    /// Whether textures are blurred that are finer than the pixels.
+    pub texture_filter: Minification,
 }
 
 impl Default for Settings {
@@ -35,6 +37,7 @@ impl Default for Settings {
             seed: 0,
             normals: Normals::Interpolated,
             cull_back_faces: false,
+            texture_filter: Minification::Footprint,
         }
     }
 }
@@ -168,4 +171,33 @@ pub enum Normals {
     /// Interpolated from the corners: the smooth look (lecture 83).
     #[default]
     Interpolated,
+}
+
+/// What becomes of textures that are finer than the pixels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Minification {
+    /// They are averaged over the narrower side of what a pixel covers of them; the wider one is left to the samples. Less noise, and
+    /// memory for smaller copies of them: a third of theirs.
+    #[default]
+    Footprint,
+    /// Every sample reads the texture as it is.
+    None,
+}
+
+impl Minification {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Footprint, Self::None];
+
+    /// The name in files and on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Footprint => "footprint",
+            Self::None => "none",
+        }
+    }
+
+    /// The one called `name`.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name)
+    }
 }

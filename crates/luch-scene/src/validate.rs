@@ -202,7 +202,7 @@ impl Problems<'_> {
 
     fn shapes(&mut self) {
         for (i, shape) in self.scene.shapes.iter().enumerate() {
-            match shape {
+            match &**shape {
                 Shape::Mesh(mesh) => self.mesh(mesh, i),
                 Shape::Sphere { radius } | Shape::Disc { radius } => self
                     .expect(radius.is_finite() && *radius > 0.0, || {
@@ -276,7 +276,7 @@ impl Problems<'_> {
         if !instance.materials.iter().any(emits) {
             return;
         }
-        match self.scene.shapes.get(instance.shape.index()) {
+        match self.scene.shapes.get(instance.shape.index()).map(|shape| &**shape) {
             Some(Shape::Plane) => self.sentences.push(format!(
                 "instance {place} is an emitting plane, whose light would have no bounds; take a disc or a mesh"
             )),

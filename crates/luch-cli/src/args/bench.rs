@@ -1,5 +1,6 @@
 //! What was typed after `luch bench`.
 
+use super::ParameterArgs;
 use crate::bench::{Kernel, SetKind};
 use crate::parse;
 use clap::{Args, Subcommand};
@@ -43,6 +44,8 @@ pub(crate) struct RaysArgs {
     /// Write the mesh, rays and hits to PREFIX.tri, PREFIX.SET.rays and PREFIX.SET.hits
     #[arg(long, value_name = "PREFIX")]
     pub(crate) write: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) parameters: ParameterArgs,
     #[command(flatten)]
     pub(crate) camera: CameraArgs,
     #[command(flatten)]

@@ -1,11 +1,11 @@
 //! What was typed after `luch render`.
 
-use super::DisplayArgs;
+use super::{DisplayArgs, ParameterArgs};
 use crate::layers::LayerChoice;
 use crate::parse::{self, IntegratorChoice, Size};
 use clap::{Args, ValueEnum};
 use luch::sampling::Sequence;
-use luch::scene::{Filter, Normals};
+use luch::scene::{Filter, Minification, Normals};
 use std::ops::Range;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -29,6 +29,8 @@ pub(crate) struct RenderArgs {
     /// What to write: .png, .jpg, .exr, .hdr, .pfm, .npy, .luch (may be given several times) [default: the scene's name with .png, in this folder]
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) parameters: ParameterArgs,
     #[command(flatten)]
     pub(crate) goal: GoalArgs,
     #[command(flatten)]
@@ -90,6 +92,9 @@ pub(crate) struct PictureArgs {
     /// flat or smooth
     #[arg(long, value_name = "KIND", value_parser = parse::normals)]
     pub(crate) normals: Option<Normals>,
+    /// Textures finer than the pixels: footprint (averaged) or none (read as they are)
+    #[arg(long, value_name = "KIND", value_parser = parse::texture_filter)]
+    pub(crate) texture_filter: Option<Minification>,
     /// Skip back faces of closed, opaque meshes
     #[arg(long)]
     pub(crate) cull_back_faces: bool,

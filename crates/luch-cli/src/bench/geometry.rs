@@ -1,5 +1,6 @@
 //! The triangles that are traced.
 
+use crate::args::ParameterArgs;
 use crate::failure::Failure;
 use glam::Vec3;
 use luch::bvh::Aabb;
@@ -15,13 +16,13 @@ pub(super) struct Triangles {
 
 impl Triangles {
     /// What a `.tri` file or any scene or mesh holds.
-    pub(super) fn load(path: &Path) -> Result<Self, Failure> {
+    pub(super) fn load(path: &Path, parameters: &ParameterArgs) -> Result<Self, Failure> {
         let is_raw = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("tri"));
         let triangles = if is_raw {
             let mesh = ray_files::read_mesh(path, &Files::disk())?;
             Self { positions: mesh.positions, corners: mesh.triangles }
         } else {
-            Self::of_scene(&luch::load(path)?.scene)
+            Self::of_scene(&parameters.load(path, &Files::disk())?.scene)
                 .ok_or_else(|| Failure::new(format!("{}: has too many vertices", path.display())))?
         };
         if triangles.bounds().is_empty() {
@@ -34,7 +35,7 @@ impl Triangles {
     fn of_scene(scene: &Scene) -> Option<Self> {
         let mut all = Self { positions: Vec::new(), corners: Vec::new() };
         for instance in &scene.instances {
-            let Some(Shape::Mesh(mesh)) = scene.shapes.get(instance.shape.index()) else { continue };
+            let Shape::Mesh(mesh) = &*scene.shapes[instance.shape.index()] else { continue };
             let first = u32::try_from(all.positions.len()).ok()?;
             u32::try_from(all.positions.len() + mesh.positions.len()).ok()?;
             all.positions.extend(mesh.positions.iter().map(|p| instance.placement.transform_point3(*p)));

@@ -27,7 +27,7 @@ pub(super) fn run(args: &RaysArgs) -> Result<Outcome, Failure> {
         refuse_replacing(&[raw], &[&args.mesh])?;
         probe(raw)?;
     }
-    let triangles = Triangles::load(&args.mesh)?;
+    let triangles = Triangles::load(&args.mesh, &args.parameters)?;
     let choice = &args.choice;
     let trees: Vec<Tree> =
         choice.quality.0.iter().map(|&quality| Tree::build(&triangles, quality, args.repeat)).collect();

@@ -61,7 +61,7 @@ impl MeshReport {
 
 /// Every mesh of a scene.
 pub(crate) fn examine(scene: &Scene) -> Vec<MeshReport> {
-    let meshes = scene.shapes.iter().enumerate().filter_map(|(i, shape)| match shape {
+    let meshes = scene.shapes.iter().enumerate().filter_map(|(i, shape)| match &**shape {
         Shape::Mesh(mesh) => Some((i, mesh)),
         _ => None,
     });

@@ -32,7 +32,7 @@ fn far_away(named: &NamedCamera, bounds: &Aabb) -> Option<String> {
 fn inside(scene: &Scene, named: &NamedCamera) -> Vec<String> {
     let bodies = scene.instances.iter().filter(|instance| {
         let eye = instance.placement.inverse().transform_point3(named.camera.position);
-        match &scene.shapes[instance.shape.index()] {
+        match &*scene.shapes[instance.shape.index()] {
             Shape::Sphere { radius } => eye.length() < *radius,
             Shape::Mesh(mesh) => mesh.bounds().contains(eye) && encloses(mesh, eye),
             Shape::Disc { .. } | Shape::Plane => false,

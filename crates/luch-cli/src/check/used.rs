@@ -43,7 +43,7 @@ fn unused_shapes(scene: &Scene) -> Vec<String> {
 fn missing_uvs(scene: &Scene) -> Vec<String> {
     let mut found = Vec::new();
     for instance in &scene.instances {
-        let Shape::Mesh(mesh) = &scene.shapes[instance.shape.index()] else { continue };
+        let Shape::Mesh(mesh) = &*scene.shapes[instance.shape.index()] else { continue };
         for id in &instance.materials {
             let material = &scene.materials[id.index()];
             let lacks = |used: &TextureUse| {

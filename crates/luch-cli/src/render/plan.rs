@@ -50,7 +50,14 @@ impl Plan {
         files.paths().into_iter().try_for_each(outputs::probe)?;
 
         let disk = luch::formats::Files::disk();
-        let loaded = luch::formats::load_with(&source, &disk)?;
+        // Options: the film's before the scene's, those that were typed before both.
+        let kept = match &resumed {
+            Some(film) => Some(Recipe::from_json(&film.provenance.options)?),
+            None => None,
+        };
+        let mut parameters = kept.as_ref().map(|kept| kept.parameters.clone()).unwrap_or_default();
+        parameters.extend(args.parameters.values()?);
+        let loaded = luch::formats::load_with_parameters(&source, &disk, &parameters)?;
         refuse_replacing(&files.paths(), &disk.taken())?;
         if !args.work.quiet {
             announce(&loaded);
@@ -58,11 +65,8 @@ impl Plan {
         }
         let Loaded { mut scene, wishes, .. } = loaded;
 
-        // Options: the film's before the scene's, those that were typed before both.
-        let mut recipe = match &resumed {
-            Some(film) => Recipe::from_json(&film.provenance.options)?,
-            None => Recipe::of_scene(&scene.settings, &wishes.tone),
-        };
+        let mut recipe = kept.unwrap_or_else(|| Recipe::of_scene(&scene.settings, &wishes.tone));
+        recipe.parameters = parameters;
         recipe.change(&args.picture)?;
         recipe.change_display(&args.display);
         let typed = goal_words(args);

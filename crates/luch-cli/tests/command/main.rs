@@ -6,6 +6,7 @@ mod errors;
 mod interrupt;
 mod merge;
 mod outputs;
+mod parameters;
 mod reproduce;
 mod safety;
 mod workplace;

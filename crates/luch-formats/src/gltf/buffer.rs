@@ -116,7 +116,9 @@ impl Loader<'_> {
         if let Some(bytes) = self.known.get(&names[0]) {
             return Ok(Rc::clone(bytes));
         }
-        let bytes = uri::read(&names, self.files)
+        let bytes = self
+            .files
+            .read(uri::existing(&names, self.files))
             .map_err(|problem| uri.problem(format!("{}: {}", names[0].display(), problem.message)))?;
         self.total += bytes.len() as u64;
         let bytes = Rc::new(bytes);

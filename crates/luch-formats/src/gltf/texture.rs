@@ -9,12 +9,9 @@ use super::json::{Json, short};
 use super::uri::{self, Target};
 use crate::Problem;
 use glam::{Affine2, Mat2, Vec2};
-use luch_image::{Bitmap, Encoding, codec};
+use luch_image::{Bitmap, Encoding};
 use luch_scene::{Id, Texture, TextureFilter, TextureUse, Wrap};
 use std::path::PathBuf;
-
-/// Most pixels of all pictures of a file together; 4 GiB with 8 bits a channel.
-const MOST_PIXELS: u64 = 1 << 30;
 
 /// What makes a texture of the scene: the texture of the document and how its numbers are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -156,19 +153,21 @@ impl Import<'_> {
         if let Some(&known) = self.images.get(&source) {
             return Ok(known);
         }
-        let decoded = match (&source, &names) {
-            (ImageSource::View(view), _) => self.decode(self.document.buffers.bytes(*view, &json)?),
-            (_, Some(names)) => {
-                let bytes = uri::read(names, self.document.files).map_err(|problem| problem.message);
-                bytes.and_then(|bytes| self.decode(&bytes))
-            }
-            _ => self.decode(&data.unwrap_or_default()),
+        let mut decode = |bytes: &[u8]| {
+            let picture = self.pictures.decode(bytes, None, |_| ())?;
+            Ok(self.scene.add_image(picture))
         };
-        let image = match decoded {
-            Ok(bitmap) => {
-                self.pixels += u64::from(bitmap.width) * u64::from(bitmap.height);
-                Some(self.scene.add_image(bitmap))
+        let found = match (&source, &names) {
+            (ImageSource::View(view), _) => decode(self.document.buffers.bytes(*view, &json)?),
+            (_, Some(names)) => {
+                let path = uri::existing(names, self.document.files);
+                let found = self.pictures.find(path, &mut self.scene, &mut Vec::new());
+                found.map_err(|problem| problem.message)
             }
+            _ => decode(&data.unwrap_or_default()),
+        };
+        let image = match found {
+            Ok(image) => Some(image),
             Err(reason) => {
                 let name = names.map(|[name, _]| format!("\"{}\": ", short(&name.display().to_string())));
                 let message = format!("{}{reason}; the factor alone is used", name.unwrap_or_default());
@@ -178,13 +177,6 @@ impl Import<'_> {
         };
         self.images.insert(source, image);
         Ok(image)
-    }
-
-    fn decode(&self, bytes: &[u8]) -> Result<Bitmap, String> {
-        if self.pixels > MOST_PIXELS {
-            return Err(format!("the pictures before it have over {MOST_PIXELS} pixels together"));
-        }
-        codec::decode(bytes, None).map_err(|error| error.to_string())
     }
 }
 

@@ -31,10 +31,9 @@ pub(super) fn resolve(uri: &Json, file: &Path) -> Result<Target, Problem> {
     Ok(Target::File([decoded.as_str(), text].map(|name| Files::beside(file, name))))
 }
 
-/// Reads the first of the two names that exists.
-pub(super) fn read(names: &[PathBuf; 2], files: &Files) -> Result<Vec<u8>, Problem> {
-    let [decoded, plain] = names;
-    files.read(decoded).or_else(|problem| if plain == decoded { Err(problem) } else { files.read(plain) })
+/// The first of the two names that exists; the decoded one if none does.
+pub(super) fn existing<'a>([decoded, plain]: &'a [PathBuf; 2], files: &Files) -> &'a Path {
+    if !files.has(decoded) && files.has(plain) { plain } else { decoded }
 }
 
 /// RFC 2397: `[media type][;base64],data`, without the leading `data:`.

@@ -23,10 +23,11 @@ impl Resolver<'_> {
         let names = self.names("mesh", file.meshes.iter().map(|mesh| mesh.name.as_ref()));
         let mut shapes = Vec::with_capacity(file.meshes.len());
         let mut triangles = 0;
-        // The last file read, as the next mesh may well be made from it too.
+        // The last file read, if the next mesh is made from it too.
         let mut last: Option<(PathBuf, TriangleMesh)> = None;
-        for source in &file.meshes {
-            let mesh = self.mesh(&source.value, &mut last);
+        for (place, source) in file.meshes.iter().enumerate() {
+            let next = file.meshes.get(place + 1).map(|next| &next.value);
+            let mesh = self.mesh(&source.value, next, &mut last);
             triangles += mesh.as_ref().map_or(0, |mesh| mesh.triangles.len());
             if triangles > MOST_TRIANGLES {
                 let message =
@@ -43,22 +44,29 @@ impl Resolver<'_> {
     fn mesh(
         &mut self,
         source: &MeshSource,
+        next: Option<&MeshSource>,
         last: &mut Option<(PathBuf, TriangleMesh)>,
     ) -> Option<TriangleMesh> {
         let mut mesh = match &source.origin {
             MeshOrigin::Generator(generator) => generator.mesh(),
             MeshOrigin::File(name) => {
                 let path = self.path(name);
-                match last {
-                    Some((known, mesh)) if *known == path => mesh.clone(),
+                let mesh = match last.take() {
+                    Some((known, mesh)) if known == path => mesh,
                     _ => match crate::bare_mesh::read(&path, self.files, &mut self.warnings) {
-                        Ok(mesh) => last.insert((path, mesh)).1.clone(),
+                        Ok(mesh) => mesh,
                         Err(error) => {
                             self.refer(&name.span, "read", error.problems);
                             return None;
                         }
                     },
+                };
+                if let Some(MeshOrigin::File(next)) = next.map(|next| &next.origin)
+                    && self.path(next) == path
+                {
+                    *last = Some((path, mesh.clone()));
                 }
+                mesh
             }
         };
         for operation in &source.operations {

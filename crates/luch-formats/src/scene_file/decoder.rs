@@ -47,6 +47,8 @@ pub(super) struct Decoder<'a> {
     text_size: usize,
     /// Triangles that generators will make.
     pub(super) generated: u64,
+    /// Objects so far, each copy counted.
+    pub(super) copies: usize,
 }
 
 /// Reads the scene file at `path` and those it includes.
@@ -62,6 +64,7 @@ pub(crate) fn read(path: &Path, files: &Files) -> Result<(SceneFile, Report), Lo
         open: Vec::new(),
         text_size: 0,
         generated: 0,
+        copies: 0,
     };
     decoder.file(path, None);
     if decoder.report.count() == 0 {

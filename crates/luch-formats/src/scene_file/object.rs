@@ -55,7 +55,7 @@ impl Decoder<'_> {
         let shape = shape_node.and_then(|field| self.shape(field));
         let materials =
             fields.take(self, "material").map(|field| self.material_of(field)).unwrap_or_default();
-        let placement = self.placed(&mut fields, outer);
+        let placements = self.placements(&mut fields, outer);
         if lacks_shape && fields.nothing_left() {
             let help = "write mesh=\"name\", `mesh { … }`, `sphere radius=1`, `disc radius=1` or `plane`";
             self.problem(&fields.span, "`object` lacks its shape", Some(help.into()));
@@ -63,7 +63,7 @@ impl Decoder<'_> {
         let span = fields.span.clone();
         fields.finish(self, "option");
         if let Some(shape) = shape {
-            self.scene.objects.push(ObjectSource { name, span, shape, materials, placement });
+            self.scene.objects.push(ObjectSource { name, span, shape, materials, placements });
         }
     }
 

@@ -6,7 +6,7 @@ use super::value::Range;
 use super::{Spanned, fields::Argument};
 use luch_image::tone::{Curve, Tone};
 use luch_sampling::Sequence;
-use luch_scene::{Filter, Integrator, Normals, Property, Settings};
+use luch_scene::{Filter, Integrator, Minification, Normals, Property, Settings};
 
 /// Most pixels along a side.
 const LONGEST_SIDE: u64 = 1 << 16;
@@ -72,6 +72,9 @@ impl Decoder<'_> {
         let normals = [("smooth", Normals::Interpolated), ("flat", Normals::Flat)];
         settings.normals = self.word_or(&mut fields, "normals", &normals, settings.normals);
         settings.cull_back_faces = self.flag_or(&mut fields, "cull-back-faces", settings.cull_back_faces);
+        let minifications = Minification::ALL.map(|kind| (kind.name(), kind));
+        settings.texture_filter =
+            self.word_or(&mut fields, "texture-filter", &minifications, settings.texture_filter);
         let samples = self.whole_or(&mut fields, "samples", 1, MOST_SAMPLES, 0);
         self.scene.wishes.samples = (samples > 0).then_some(samples);
         let curves = Curve::ALL.map(|curve| (curve.name(), curve));

@@ -151,7 +151,7 @@ pub(crate) fn load_bytes(bytes: Vec<u8>) -> Result<Loaded, LoadError> {
 
 /// The mesh of a shape.
 pub(crate) fn mesh(scene: &Scene, shape: usize) -> &TriangleMesh {
-    match &scene.shapes[shape] {
+    match &*scene.shapes[shape] {
         Shape::Mesh(mesh) => mesh,
         other => panic!("{other:?} is no mesh"),
     }

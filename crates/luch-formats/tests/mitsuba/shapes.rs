@@ -65,7 +65,7 @@ fn vertex_normals_decide_which_side_is_the_front() {
     );
     all.push(("n.obj".into(), b"v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 -1\nf 1//1 2//1 3//1\n".to_vec()));
     let loaded = load_files(all, &[]).unwrap();
-    let Shape::Mesh(mesh) = &loaded.scene.shapes[0] else { panic!("is a mesh") };
+    let Shape::Mesh(mesh) = &*loaded.scene.shapes[0] else { panic!("is a mesh") };
     assert!(mesh.area_normal(0).z < 0.0);
     assert_eq!(mesh.corner_normals(0).unwrap()[0], Vec3::NEG_Z);
 }
@@ -202,7 +202,7 @@ fn serialized_meshes_of_both_versions() {
     for version in [3, 4] {
         for index in [0, 1] {
             let loaded = load_serialized(serialized(version), index).unwrap();
-            let Shape::Mesh(mesh) = &loaded.scene.shapes[0] else { panic!("is a mesh") };
+            let Shape::Mesh(mesh) = &*loaded.scene.shapes[0] else { panic!("is a mesh") };
             assert_eq!(mesh.positions[1], Vec3::new(1.0, 0.0, index as f32));
             if index == 1 {
                 assert_eq!(mesh.corner_uvs(0, 0).unwrap()[0], Vec2::new(0.0, 0.75));

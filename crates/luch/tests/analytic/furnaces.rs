@@ -79,7 +79,7 @@ fn f3_a_sphere_that_glows_in_part_has_the_same_indirect_light_everywhere() {
     let mut scene = Scene::default();
     let quarter = Image::from_pixels(4, 1, vec![Rgb::WHITE, Rgb::BLACK, Rgb::BLACK, Rgb::BLACK]).unwrap();
     let image = luch::scene::Id::new(0);
-    scene.images.push(Bitmap::from_rgb(&quarter));
+    scene.images.push(Bitmap::from_rgb(&quarter).into());
     let texture = scene.add_texture(Texture::Image {
         image,
         encoding: luch::image::Encoding::Linear,

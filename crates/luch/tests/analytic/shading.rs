@@ -52,7 +52,7 @@ fn wild_map(scene: &mut Scene) -> NormalMap {
         (state >> 40) as u8
     };
     let pixels = (0..64).map(|_| [byte(), byte(), 128 + byte() / 2, 255]).collect();
-    scene.images.push(Bitmap {
+    scene.add_image(Bitmap {
         width: 8,
         height: 8,
         pixels: Pixels::U8(pixels),

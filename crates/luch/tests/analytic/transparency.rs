@@ -67,7 +67,7 @@ fn a_lamp_that_is_half_there_shines_half() {
     expect("received", &rectangle, &low(), open / 2.0, &WAYS);
     for shape in [Shape::Sphere { radius: 0.7 }, Shape::Disc { radius: 1.0 }] {
         let mut scene = scene.clone();
-        scene.shapes[1] = shape;
+        scene.shapes[1] = shape.into();
         scene.instances[1].placement = super::stage::facing_down(Vec3::Y);
         let there = {
             let mut scene = scene.clone();
@@ -90,7 +90,7 @@ fn a_lamp_that_is_half_there_shines_half() {
 fn a_masked_lamp_shines_where_it_is_there() {
     let (mut scene, _) = lit_floor();
     // Alpha rises along x from 0 to 1: the half at x > 0 is there.
-    scene.shapes[1] = Shape::Mesh(rising_alpha(Vec3::new(-1.0, 1.0, -1.0), 2.0));
+    scene.shapes[1] = Shape::Mesh(rising_alpha(Vec3::new(-1.0, 1.0, -1.0), 2.0)).into();
     scene.materials[1].opacity = Opacity::Mask { alpha: vertex_alpha(), cutoff: 0.5 };
     let world = world(scene);
     let corners = [[0.0, -1.0], [1.0, -1.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, z]| DVec3::new(x, 1.0, z));
@@ -136,7 +136,7 @@ fn a_texture_can_cut_out() {
     let mut scene = Scene::default();
     ceiling(&mut scene, [-9.0; 2], [9.0; 2], 2.0, lamp(3.0));
     let pixels = Pixels::U8(vec![[255, 255, 255, 51], [255, 255, 255, 255]]);
-    scene.images.push(Bitmap { width: 2, height: 1, pixels, encoding: Encoding::Srgb, has_alpha: true });
+    scene.add_image(Bitmap { width: 2, height: 1, pixels, encoding: Encoding::Srgb, has_alpha: true });
     let texture = scene.add_texture(Texture::Image {
         image: Id::new(0),
         encoding: Encoding::Srgb,
