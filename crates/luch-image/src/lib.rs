@@ -32,6 +32,7 @@ pub mod bitmap;
 pub mod codec;
 pub mod compare;
 mod image;
+mod pyramid;
 mod rgb;
 pub mod srgb;
 mod sum;
@@ -39,6 +40,7 @@ pub mod tone;
 
 pub use bitmap::{Bitmap, Encoding, Pixels};
 pub use image::Image;
+pub use pyramid::Pyramid;
 pub use rgb::Rgb;
 
 /// The README's example, run as a test.

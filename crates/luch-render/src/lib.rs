@@ -30,11 +30,13 @@
 
 pub mod bsdf;
 mod checkpoint;
+mod cone;
 mod emitter;
 mod exact;
 mod film;
 mod filter;
 mod fingerprint;
+mod footprint;
 mod geometry;
 pub mod integrator;
 mod job;
@@ -58,6 +60,7 @@ mod world;
 
 pub use bsdf::{Bsdf, BsdfSample};
 pub use checkpoint::{Checkpoint, CheckpointError, Provenance};
+pub use cone::Cone;
 pub use emitter::{EmitterSample, FlatForm, FlatLamp};
 pub use film::{BUNDLE, Coverage, ErrorEstimate, Film, Losses, MeanEstimate, PixelEstimate, TILE, Tile};
 pub use fingerprint::Fingerprint;

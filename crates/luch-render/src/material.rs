@@ -3,6 +3,7 @@
 use crate::bsdf::{
     Bsdf, Conductor, ConductorFresnel, Dielectric, Diffuse, Glossy, Phong, Principled, PrincipledParameters,
 };
+use crate::place::Place;
 use crate::purpose;
 use crate::surface::SurfacePoint;
 use crate::world::World;
@@ -12,8 +13,8 @@ use luch_scene::{Id, Material, Reflectance, Scene, Surface};
 
 /// How the surface scatters light at `point`. A mixture is decided here, by the numbers of `bounce`.
 pub fn bsdf_at(world: &World, point: &SurfacePoint, sampler: &Sampler, bounce: u32) -> Bsdf {
-    let id = unmixed(point, sampler, bounce);
-    let place = &point.place;
+    let place = &point.seen(&world.pyramids);
+    let id = unmixed(place, point.material, sampler, bounce);
     match &world.scene.materials[id.index()].surface {
         Surface::Absorber | Surface::Mix { .. } => Bsdf::Absorber,
         Surface::Diffuse { color } => Bsdf::Diffuse(Diffuse::new(bounded(place.color(color)))),
@@ -54,16 +55,16 @@ pub fn bsdf_at(world: &World, point: &SurfacePoint, sampler: &Sampler, bounce: u
 }
 
 /// The material whose surface counts: of a mixture, one of its parts at random.
-fn unmixed(point: &SurfacePoint, sampler: &Sampler, bounce: u32) -> Id<Material> {
-    let scene = point.place.scene;
-    let mut id = point.material;
+fn unmixed(place: &Place, material: Id<Material>, sampler: &Sampler, bounce: u32) -> Id<Material> {
+    let scene = place.scene;
+    let mut id = material;
     let mut depth = 0;
     let mut chances = sampler.group(purpose::mix(bounce));
     // Parts stand before their mixture, so this ends.
     while let Surface::Mix { first, second, weight } = &scene.materials[id.index()].surface {
         // What is left of a number after a decision is uniform again: deeper mixtures go on with it.
         let chance = &mut chances[depth & 3];
-        let weight = unit(point.place.scalar(weight));
+        let weight = unit(place.scalar(weight));
         if *chance < weight {
             *chance /= weight;
             id = *second;

@@ -1,11 +1,12 @@
 //! A place on a shape, known by ids and barycentric coordinates, and what the scene says there.
 
+use crate::footprint::Footprint;
 use crate::texture::look_up;
 use glam::{Vec2, Vec3, Vec4};
 use luch_bvh::InstanceHit;
 use luch_image::Rgb;
 use luch_scene::{
-    Channel, ColorValue, Id, Instance, Material, Opacity, ScalarValue, Scene, Shape, TextureUse,
+    Channel, ColorValue, Id, Instance, Material, Opacity, ScalarValue, Scene, Shape, Texture, TextureUse,
 };
 use std::f32::consts::PI;
 
@@ -21,6 +22,8 @@ pub(crate) struct Place<'a> {
     pub(crate) weights: [f32; 3],
     /// Place in the shape's coordinates; for shapes that are not meshes.
     pub(crate) local: Vec3,
+    /// What is seen of the textures; `None` to read them as they are.
+    pub(crate) footprint: Option<Footprint<'a>>,
 }
 
 /// The sum of corner values by weight: lecture points 74 to 77.
@@ -44,6 +47,7 @@ impl<'a> Place<'a> {
             primitive: hit.hit.primitive as usize,
             weights: [1.0 - u - v, u, v],
             local,
+            footprint: None,
         }
     }
 
@@ -87,7 +91,12 @@ impl<'a> Place<'a> {
     /// A texture as it is laid on here.
     pub(crate) fn texture(&self, used: &TextureUse) -> [f32; 4] {
         let uv = used.place(self.uv(usize::from(used.uv_set)));
-        look_up(self.scene, &self.scene.textures[used.texture.index()], uv)
+        let texture = &self.scene.textures[used.texture.index()];
+        let blend = self.footprint.as_ref().and_then(|footprint| match texture {
+            Texture::Image { image, .. } => footprint.blend(self, used, &self.scene.images[image.index()]),
+            Texture::Checker { .. } => None,
+        });
+        look_up(self.scene, texture, uv, blend)
     }
 
     /// A colour here.

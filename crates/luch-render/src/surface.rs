@@ -1,5 +1,6 @@
 //! A point of a surface: where a path stands, and how the next ray leaves it safely.
 
+use crate::footprint::{Footprint, Pyramids};
 use crate::geometry::{Geometry, is_smooth, local_normal};
 use crate::place::{Place, blend};
 use glam::{Mat3, Vec3};
@@ -27,6 +28,8 @@ pub struct SurfacePoint<'a> {
     pub outgoing: Vec3,
     /// What the surface is made of.
     pub material: Id<Material>,
+    /// Diameter of the ray that came here, metres: textures are averaged over it. 0 reads them as they are.
+    pub width: f32,
     /// Bound of the position's rounding error along any axis.
     error: f32,
     /// How far smooth shading lifts the point off the triangle, on the outside and on the inside.
@@ -64,12 +67,22 @@ impl<'a> SurfacePoint<'a> {
             frame: Frame::from_normal(geometric_normal),
             outgoing,
             material: place.material_id(),
+            width: 0.0,
             error,
             lift: [Vec3::ZERO; 2],
             tilted: false,
         };
         point.shade(normal_map);
         point
+    }
+
+    /// The place with the footprint of the ray, for what a surface scatters by.
+    pub(crate) fn seen<'w>(&self, pyramids: &'w Pyramids) -> Place<'w>
+    where
+        'a: 'w,
+    {
+        let footprint = Footprint { pyramids, direction: -self.outgoing, width: self.width };
+        Place { footprint: (self.width > 0.0).then_some(footprint), ..self.place }
     }
 
     /// True if the ray came from outside.

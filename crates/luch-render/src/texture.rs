@@ -1,19 +1,24 @@
 //! Textures at a point.
 
+use crate::footprint::Blend;
 use luch_image::{Bitmap, Encoding};
 use luch_scene::{Scene, Texture, TextureFilter, Wrap};
 
 use glam::Vec2;
 
-/// Colour and alpha of a texture at texture coordinates.
-pub(crate) fn look_up(scene: &Scene, texture: &Texture, uv: Vec2) -> [f32; 4] {
+/// Colour and alpha of a texture at texture coordinates. Of a picture that is finer than what is looked at, the copies that
+/// `blend` says are read.
+pub(crate) fn look_up(scene: &Scene, texture: &Texture, uv: Vec2, blend: Option<Blend>) -> [f32; 4] {
     match texture {
         Texture::Image { image, encoding, wrap, filter } => {
-            let image = &scene.images[image.index()];
-            match filter {
+            let base = &*scene.images[image.index()];
+            let read = |image: &Bitmap| match filter {
                 TextureFilter::Nearest => nearest(image, *encoding, *wrap, uv),
                 TextureFilter::Bilinear => bilinear(image, *encoding, *wrap, uv),
-            }
+            };
+            let Some(Blend { first, second, part }) = blend else { return read(base) };
+            let (near, far) = (read(first.unwrap_or(base)), read(second));
+            std::array::from_fn(|i| near[i] + (far[i] - near[i]) * part)
         }
         Texture::Checker { even, odd } => {
             let parity = whole(uv.x.floor()) ^ whole(uv.y.floor());

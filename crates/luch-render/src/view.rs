@@ -1,5 +1,6 @@
 //! How a pixel and an index become a ray: camera, size, filter, sequence and seed.
 
+use crate::cone::Cone;
 use crate::film::BUNDLE;
 use crate::filter::FilterSampler;
 use crate::purpose;
@@ -28,6 +29,8 @@ pub struct View {
 pub struct CameraSample {
     /// From the lens, with unit direction.
     pub ray: Ray,
+    /// How wide the ray is: as a pixel.
+    pub cone: Cone,
     /// The numbers of this sample.
     pub sampler: Sampler,
     /// The numbers of this sample where its bundle works together: points of one sequence that all of the bundle share, so that
@@ -77,7 +80,16 @@ impl View {
         let column = pixel[0] as f32 + 0.5 + self.filter.offset(x);
         let row = pixel[1] as f32 + 0.5 + self.filter.offset(y);
         let ray = self.ray(Vec2::new(column, row), [lens_u, lens_v]);
-        CameraSample { ray, sampler, together: sampler, bundle: 0 }
+        CameraSample { ray, cone: self.cone(), sampler, together: sampler, bundle: 0 }
+    }
+
+    /// What a pixel covers, in the middle of the picture.
+    fn cone(&self) -> Cone {
+        let pixel = 2.0 * self.half_height / self.height as f32;
+        match self.camera.projection {
+            Projection::Perspective { .. } => Cone { width: 0.0, spread: pixel },
+            Projection::Orthographic { .. } => Cone { width: pixel, spread: 0.0 },
+        }
     }
 
     /// Sample `index` of all pixels of the bundle that `pixel` belongs to, row by row.

@@ -3,6 +3,7 @@
 //! Rays of a wave are traced as batches, which is what the hardware wants. Who travels beside whom never changes what a path computes:
 //! each keeps its own numbers, and its sums are added in the order of its own bounces.
 
+use crate::cone::Cone;
 use crate::plain::PlainHit;
 use crate::reuse::{Lit, Reuse, Standpoint};
 use crate::view::CameraSample;
@@ -19,6 +20,8 @@ use std::cell::Cell;
 pub(crate) struct Path {
     /// Where it is going.
     pub(crate) ray: Ray,
+    /// How finely it reads textures.
+    pub(crate) cone: Cone,
     /// The random numbers of its sample.
     pub(crate) sampler: Sampler,
     /// The numbers to go on with where its bundle works together.
@@ -149,6 +152,12 @@ impl Found<'_> {
 }
 
 impl Path {
+    /// How finely it reads textures where it arrives. Past a first point others look at the same places, or walk over the same
+    /// mirrors: they must see the same there, so it is read as it is.
+    pub(crate) fn reading_cone(&self) -> Cone {
+        if matches!(self.leg, Leg::Sent { .. }) { Cone { width: 0.0, spread: 0.0 } } else { self.cone }
+    }
+
     /// Whether what it finds belongs to all.
     fn is_shared(&self) -> bool {
         matches!(self.leg, Leg::Shared | Leg::Glanced)
@@ -185,6 +194,7 @@ impl Wave {
         radiance.fill(Rgb::BLACK);
         let path = |(i, sample): (usize, &CameraSample)| Path {
             ray: sample.ray,
+            cone: sample.cone,
             sampler: sample.sampler,
             together: sample.together,
             throughput: Rgb::WHITE,
@@ -249,7 +259,8 @@ impl Wave {
         arrivals.clear();
         alive.clear();
         for (i, (path, hit)) in paths.iter_mut().zip(&*hits).enumerate() {
-            let triangle = hit.as_ref().and_then(|hit| Some((hit, world.plain.hit(&world.scene, hit)?)));
+            let plain = |hit| Some((hit, world.plain.hit(world, hit, &path.ray, path.reading_cone())?));
+            let triangle = hit.as_ref().and_then(plain);
             alive.push(match triangle {
                 None => single(path, *hit, &mut found),
                 Some((hit, triangle)) => {

@@ -1,6 +1,7 @@
 //! A scene plus what is derived from it.
 
 use crate::bsdf::ConductorFresnel;
+use crate::footprint::Pyramids;
 use crate::geometry::Geometry;
 use crate::lights::Lights;
 use crate::material::metals;
@@ -21,6 +22,8 @@ pub struct World {
     pub(crate) metals: Vec<Option<ConductorFresnel>>,
     /// What can be shaded side by side.
     pub(crate) plain: Plain,
+    /// Textures from afar.
+    pub(crate) pyramids: Pyramids,
 }
 
 impl World {
@@ -38,7 +41,8 @@ impl World {
         let lights = Lights::build(&scene);
         let metals = metals(&scene);
         let plain = Plain::new(&scene);
-        Ok(Self { scene, geometry, lights, metals, plain })
+        let pyramids = Pyramids::build(&scene);
+        Ok(Self { scene, geometry, lights, metals, plain, pyramids })
     }
 }
 

@@ -58,6 +58,7 @@ impl BallEmitter {
             primitive: 0,
             weights: [1.0, 0.0, 0.0],
             local: self.to_local.transform_point3(at),
+            footprint: None,
         };
         place.lamp_radiance(&scene.materials[self.material.index()])
     }

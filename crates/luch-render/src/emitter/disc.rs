@@ -51,7 +51,8 @@ impl DiscEmitter {
     fn radiance(&self, scene: &Scene, local: Vec3) -> Rgb {
         let instance = &scene.instances[self.instance as usize];
         let shape = &scene.shapes[instance.shape.index()];
-        let place = Place { scene, instance, shape, primitive: 0, weights: [1.0, 0.0, 0.0], local };
+        let place =
+            Place { scene, instance, shape, primitive: 0, weights: [1.0, 0.0, 0.0], local, footprint: None };
         place.lamp_radiance(&scene.materials[self.material.index()])
     }
 

@@ -263,6 +263,7 @@ impl FlatLamp {
             primitive: self.primitive as usize,
             weights: [(1.0 - s - t).max(0.0), s, t],
             local: Vec3::ZERO,
+            footprint: None,
         };
         place.lamp_radiance(&scene.materials[self.material.index()])
     }

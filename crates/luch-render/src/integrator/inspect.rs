@@ -77,7 +77,8 @@ impl Integrator for Inspect {
         world.geometry.nearest_hits(&world.scene, &rays, &mut hits, Coherence::Coherent, key);
         for ((sample, hit), radiance) in samples.iter().zip(hits).zip(radiance) {
             *radiance = hit.map_or(Rgb::BLACK, |hit| {
-                let point = SurfacePoint::new(&world.scene, &world.geometry, &sample.ray, hit);
+                let mut point = SurfacePoint::new(&world.scene, &world.geometry, &sample.ray, hit);
+                point.width = sample.cone.at(hit.hit.t);
                 self.show(world, sample, &point)
             });
         }

@@ -4,6 +4,7 @@ mod lanes;
 
 use super::Integrator;
 use crate::bsdf::Bsdf;
+use crate::cone::Cone;
 use crate::material::{bsdf_at, emitted};
 use crate::purpose;
 use crate::reuse::{Lit, Lucky, Scatterer, Standpoint};
@@ -60,7 +61,8 @@ impl Integrator for PathTracer {
                         false
                     }
                     Some(hit) => {
-                        let point = SurfacePoint::new(&world.scene, &world.geometry, &path.ray, hit);
+                        let mut point = SurfacePoint::new(&world.scene, &world.geometry, &path.ray, hit);
+                        point.width = path.reading_cone().at(hit.hit.t);
                         self.arrive(world, path, &point, found, share)
                     }
                 },
@@ -149,6 +151,7 @@ fn arrive_plain(
             path.origin =
                 Some(Origin { position, normal, together, pdf: departures.pdf(lane), specular: false });
             path.ray = Ray::new(near, departures.direction(lane));
+            path.cone = Cone::SCATTERED;
             path.depth += 1;
             alive[arrival.path] = true;
         }
@@ -252,6 +255,7 @@ impl PathTracer {
             specular: scattered.specular,
         });
         path.ray = exit.ray_toward(incoming);
+        path.cone = if scattered.specular { path.cone.passed_on(point.hit.hit.t) } else { Cone::SCATTERED };
         path.depth += 1;
         true
     }

@@ -3,6 +3,7 @@
 //! It sees only lights that have a surface or fill the sky. For those it is the reference in tests.
 
 use super::Integrator;
+use crate::cone::Cone;
 use crate::material::{bsdf_at, emitted};
 use crate::roulette::survive;
 use crate::stop::{Stop, Stopped};
@@ -24,7 +25,7 @@ impl PlainPathTracer {
         let scene = &world.scene;
         let sampler = &sample.sampler;
         let (mut radiance, mut throughput) = (Rgb::BLACK, Rgb::WHITE);
-        let mut ray = sample.ray;
+        let (mut ray, mut cone) = (sample.ray, sample.cone);
         for depth in 0.. {
             if depth & 63 == 63 {
                 stop.check()?;
@@ -37,7 +38,8 @@ impl PlainPathTracer {
                 }
                 break;
             };
-            let point = SurfacePoint::new(scene, &world.geometry, &ray, hit);
+            let mut point = SurfacePoint::new(scene, &world.geometry, &ray, hit);
+            point.width = cone.at(hit.hit.t);
             radiance += throughput * emitted(&point);
             if depth == self.max_depth {
                 break;
@@ -54,6 +56,7 @@ impl PlainPathTracer {
             let Some(factor) = survive(depth, throughput, chance) else { break };
             throughput *= factor;
             ray = point.exit().ray_toward(incoming);
+            cone = if scattered.specular { cone.passed_on(hit.hit.t) } else { Cone::SCATTERED };
         }
         Ok(radiance)
     }
