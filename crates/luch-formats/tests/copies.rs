@@ -93,7 +93,9 @@ fn what_is_wrong_is_told_at_its_place() {
         ),
         ("sphere; array 2000 { scale 2 }", "leave the range of numbers"),
         ("sphere; material { emission 1 }; array 2 { scale 1 2 1 }", "cannot be stretched"),
-        ("sphere array=3", "`array` stands in the block of `object`, not beside its name"),
+        ("sphere array=3", "s.kdl:2:21: unknown option `array` in `sphere`"),
+        // Closes the block and opens another object.
+        ("sphere }; object \"p\" array=3 { sphere", "`array` stands in the block of"),
     ] {
         let error = load(object).unwrap_err();
         assert!(error.contains(expected), "{object}:\n{error}\nexpected {expected}");

@@ -13,7 +13,7 @@ pub(super) const LANES: usize = 16;
 const LEAST_COSINE: f32 = 1e-3;
 
 /// Who finds a point with less than this part of the largest density has no share in it: the ray would not be worth it.
-pub(super) const LEAST_PART: f32 = 1.0 / 1024.0;
+pub(super) const LEAST_PART: f32 = 1.0 / 32.0;
 
 /// A number for each lane.
 pub(super) type Lanes = [f32; LANES];
