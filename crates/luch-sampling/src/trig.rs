@@ -26,7 +26,7 @@ pub fn sin_cos_turns(turns: f32) -> [f32; 2] {
     let quarter = quarters as i32;
     let (first, second) = if quarter & 1 == 0 { (sine, cosine) } else { (cosine, sine) };
     let sine = if quarter & 2 == 0 { first } else { -first };
-    let cosine = if (quarter + 1) & 2 == 0 { second } else { -second };
+    let cosine = if quarter.wrapping_add(1) & 2 == 0 { second } else { -second };
     [sine, cosine]
 }
 
