@@ -127,7 +127,7 @@ fn measure(scene: &Scene, reuse: bool) -> (f64, f64) {
 fn compare(what: &str, scene: &Scene) {
     let (alone, alone_error) = measure(scene, false);
     let (together, together_error) = measure(scene, true);
-    let error = alone_error.hypot(together_error);
+    let error = (alone_error * alone_error + together_error * together_error).sqrt();
     assert!(error < 2.0 * DEMANDED * alone, "{what}: the test is too coarse: {alone} ± {error}");
     let z = (together - alone) / error;
     assert!(z.abs() < DISTANCE, "{what}: {together} together, {alone} alone, {z:.1} standard errors apart");

@@ -119,12 +119,9 @@ impl Glint {
                 }
             }
         }
-        let mut sum = 0.0;
-        for k in 0..LANES {
-            // What a lane without a share scatters means nothing, and may not be a number.
-            sum += if weights[k] > 0.0 { weights[k] * scattered.pdf[k] } else { 0.0 };
-        }
-        sum
+        // What a lane without a share scatters means nothing, and may not be a number.
+        let part = |(weight, pdf): (&f32, &f32)| if *weight > 0.0 { weight * pdf } else { 0.0 };
+        weights.iter().zip(&scattered.pdf).map(part).sum()
     }
 }
 

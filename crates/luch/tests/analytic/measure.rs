@@ -86,7 +86,8 @@ fn replicates(
 /// the samples and another seed; the choice looks at the spread alone, so it leans to no side.
 pub(crate) fn measure(world: &World, camera: &Camera, way: Name, sequence: Sequence) -> Estimate {
     let pilot = replicates(world, camera, way, sequence, 1, PILOT);
-    let wanted = PILOT as f64 * (relative_error(&pilot) / PLANNED).powi(2);
+    let ratio = relative_error(&pilot) / PLANNED;
+    let wanted = PILOT as f64 * ratio * ratio;
     let mut samples = (wanted.min(MOST as f64) as u64).clamp(PILOT, MOST).next_power_of_two();
     for seed in 2.. {
         let estimate = replicates(world, camera, way, sequence, seed, samples);

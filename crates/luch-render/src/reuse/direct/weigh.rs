@@ -12,8 +12,14 @@ use luch_image::Rgb;
 pub(super) enum Shine {
     /// The same light to all.
     Alike(Shone),
-    /// A light without extent: to each its own, `[axis or channel][lane]`.
-    Each { toward: Vectors, irradiance: Vectors },
+    /// A light without extent: to each its own.
+    Each(Box<Each>),
+}
+
+/// Directions to a light and what comes from there.
+pub(super) struct Each {
+    toward: Vectors,
+    irradiance: Vectors,
 }
 
 impl Shine {
@@ -36,7 +42,7 @@ impl Shine {
                 }
             }
         }
-        Self::Each { toward, irradiance }
+        Self::Each(Box::new(Each { toward, irradiance }))
     }
 }
 
@@ -82,9 +88,9 @@ impl Task for Weigh<'_> {
         // Radiance over density and weight, the same for all channels but for the radiance.
         let mut scale = [0.0_f32; LANES];
         match shine {
-            Shine::Each { toward, irradiance } => {
-                firsts.evaluate(toward, &mut scattered);
-                arriving = *irradiance;
+            Shine::Each(each) => {
+                firsts.evaluate(&each.toward, &mut scattered);
+                arriving = each.irradiance;
                 scale = [1.0 / all; LANES];
             }
             Shine::Alike(shone) if shone.pdf_area == 0.0 => {
