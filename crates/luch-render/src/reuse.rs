@@ -14,7 +14,8 @@
 //!
 //! Points of mirrors and clear glass do not take part: the path passes over them. Second points that shine are found by light
 //! sampling as well (`direct.rs`), weighted by the power heuristic of both densities, each the sum over the bundle. Second
-//! points that are neither diffuse nor shine send everyone something else (`glint.rs`).
+//! points of metal send everyone something else (`glint.rs`). Surfaces that have no vector code, plastic or ground glass, take part in
+//! direct light alone.
 
 mod direct;
 mod echo;
@@ -37,7 +38,7 @@ use luch_bvh::simd::dispatch;
 use luch_bvh::{Coherence, Ray};
 use luch_image::Rgb;
 use points::{Densities, LANES, Points};
-use scatterers::Scatterers;
+use scatterers::{Optics, Scatterers};
 use share::Share;
 
 /// Bundles whose visibilities are asked for together: their rays stay in the cache.
@@ -121,14 +122,15 @@ impl Reuse {
         bundle.seconds.set(lane, exit, depth);
     }
 
-    /// The path of `sample` arrived second at a surface that sends everyone something else.
-    pub(crate) fn set_glint(&mut self, sample: u32, scatterer: &Scatterer, depth: u32) {
+    /// The path of `sample` arrived second at a metal, which sends everyone something else.
+    pub(crate) fn set_glint(&mut self, sample: u32, exit: &Exit, optics: Optics, depth: u32) {
         let (bundle, lane) = self.place(sample);
-        bundle.seconds.set(lane, &scatterer.exit, depth);
-        let scatterer = *scatterer;
+        bundle.seconds.set(lane, exit, depth);
+        let normal = exit.normal;
         bundle.glints.push(Glint {
             lane,
-            scatterer,
+            optics,
+            normal,
             lit: None,
             way: None,
             met: Vec::new(),

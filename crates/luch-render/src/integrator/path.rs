@@ -3,7 +3,6 @@
 mod lanes;
 
 use super::Integrator;
-use crate::bsdf::Bsdf;
 use crate::cone::Cone;
 use crate::material::{bsdf_at, emitted};
 use crate::purpose;
@@ -183,7 +182,7 @@ impl PathTracer {
         let own = path.sampler;
         let scatterer = Scatterer { exit, frame: point.frame, bsdf, toward_viewer: point.outgoing };
         let turn = if share { path.turn(&scatterer, point.is_seen_alike(), found) } else { Turn::Other };
-        let together = turn == Turn::First && world.lights.is_shareable();
+        let together = matches!(turn, Turn::First | Turn::Lit) && world.lights.is_shareable();
         let receiving = if bsdf.transmits() { Vec3::ZERO } else { exit.normal };
 
         // Light sampled from here.
@@ -237,14 +236,8 @@ impl PathTracer {
         }
         path.throughput *= factor;
         if turn == Turn::Glint {
-            if scattered.specular {
-                // A mirror within the glint is found by nobody else: the path's own business after all.
-                path.throughput *= path.carried;
-                path.carried = Rgb::WHITE;
-            } else {
-                found.reuse.set_way(path.sample, incoming);
-                path.throughput = Rgb::WHITE * factor;
-            }
+            found.reuse.set_way(path.sample, incoming);
+            path.throughput = Rgb::WHITE * factor;
         }
         path.leave(incoming, scattered.specular, turn);
         path.origin = Some(Origin {
@@ -266,6 +259,8 @@ impl PathTracer {
 enum Turn {
     /// The first point, where others are connected from.
     First,
+    /// The first point, but only its direct light is everybody's.
+    Lit,
     /// A second point that sends everyone something else.
     Glint,
     Other,
@@ -298,17 +293,19 @@ impl Path {
         }
         if self.may_be_first() {
             found.reuse.set_first(self.sample, scatterer, self.depth, self.throughput);
+            if !scatterer.is_simple() {
+                return Turn::Lit;
+            }
             self.sampler = self.together;
             Turn::First
-        } else if self.may_be_second() && is_seen_alike {
-            let is_diffuse = matches!(scatterer.bsdf, Bsdf::Diffuse(_));
-            if is_diffuse {
-                found.reuse.set_second(self.sample, &scatterer.exit, self.depth);
-            } else {
-                found.reuse.set_glint(self.sample, scatterer, self.depth);
+        } else if self.may_be_second() && is_seen_alike && scatterer.is_simple() {
+            let optics = scatterer.optics();
+            match optics {
+                None => found.reuse.set_second(self.sample, &scatterer.exit, self.depth),
+                Some(optics) => found.reuse.set_glint(self.sample, &scatterer.exit, optics, self.depth),
             }
             self.hand_over();
-            if is_diffuse { Turn::Other } else { Turn::Glint }
+            if optics.is_none() { Turn::Other } else { Turn::Glint }
         } else {
             Turn::Other
         }
@@ -324,16 +321,15 @@ impl Path {
     /// Notes that the path goes on, after a first point or over a mirror or otherwise.
     fn leave(&mut self, direction: Vec3, specular: bool, turn: Turn) {
         self.leg = match self.leg {
-            Leg::Seen if turn == Turn::First && !specular => {
+            Leg::Seen if turn == Turn::First => {
                 self.sent = direction;
                 Leg::Sent { mirrors: 0, lit: false }
             }
-            Leg::Seen if turn != Turn::First && specular => Leg::Seen,
+            Leg::Seen if turn == Turn::Other && specular => Leg::Seen,
             Leg::Sent { mirrors, lit } if specular && self.depth < TOGETHER => {
                 Leg::Sent { mirrors: mirrors + 1, lit }
             }
             Leg::Shared | Leg::Glanced => match turn {
-                Turn::Glint if specular => Leg::Own,
                 Turn::Glint => Leg::Glanced,
                 _ => Leg::Shared,
             },
@@ -346,7 +342,7 @@ impl Path {
         match self.origin {
             Some(origin) if origin.together => {
                 let light = light * found.reuse.weight_of_lamp(world, self.sample, point);
-                if point.is_seen_alike() {
+                if self.may_be_second() && point.is_seen_alike() {
                     found.reuse.set_second(self.sample, &point.exit(), self.depth);
                     found.reuse.add(self.sample, light);
                 } else {

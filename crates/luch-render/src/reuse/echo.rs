@@ -60,7 +60,7 @@ impl Reuse {
             let firsts = &self.bundles[bundle as usize].firsts;
             let depth = firsts.points.depth[own as usize];
             let scattered = dispatch(Sent { firsts, direction: path.direction });
-            let pdf = |lane: usize| if firsts.points.is_at(lane, depth) { scattered.pdf[lane] } else { 0.0 };
+            let pdf = |lane: usize| if firsts.connects(lane, depth) { scattered.pdf[lane] } else { 0.0 };
             let least = (0..LANES).map(pdf).fold(0.0, f32::max) * LEAST_PART;
             // Whose direction it was by a chance that is none for the others keeps it.
             let shared = pdf(own as usize) >= least;
@@ -126,7 +126,7 @@ impl Task for Sent<'_> {
     fn run(self) -> Scattered {
         let mut scattered = Scattered::default();
         let toward = self.direction.to_array().map(|axis| [axis; LANES]);
-        self.firsts.evaluate(&toward, &mut scattered);
+        self.firsts.evaluate(&toward, |k| self.firsts.points.is_set(k), &mut scattered);
         scattered
     }
 }

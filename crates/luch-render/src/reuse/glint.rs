@@ -15,16 +15,18 @@
 //! with E what a lamp met along ω_s sends. The weights are functions of y and ω alone, as multiple importance sampling asks.
 
 use super::points::{LANES, Lanes, Vectors, at};
-use super::scatterers::{Scattered, Scatterer};
+use super::scatterers::{Optics, Scattered};
 use glam::Vec3;
 use luch_bvh::simd::Task;
 use luch_image::Rgb;
 
-/// A second point that is not diffuse.
+/// A second point of metal whose light bounces once.
 #[derive(Clone, Debug)]
 pub(super) struct Glint {
     pub(super) lane: usize,
-    pub(super) scatterer: Scatterer,
+    pub(super) optics: Optics,
+    /// Of the shading frame, on the side that is seen.
+    pub(super) normal: Vec3,
     pub(super) lit: Option<Lit>,
     /// Where the path went on.
     pub(super) way: Option<Vec3>,
@@ -101,22 +103,11 @@ impl Glint {
     /// What it scatters from a direction toward every first point; returns the mean density of that direction.
     #[inline(always)]
     fn scatter(&self, toward: &Vectors, weights: &Lanes, incoming: Vec3, scattered: &mut Scattered) -> f32 {
-        let Scatterer { exit, .. } = &self.scatterer;
-        if let Some(optics) = self.scatterer.optics() {
-            for k in 0..LANES {
-                let (value, pdf) = optics.reflected(exit.normal, -at(toward, k), incoming);
-                scattered.pdf[k] = pdf;
-                for (channel, value) in scattered.value.iter_mut().zip(value) {
-                    channel[k] = value;
-                }
-            }
-        } else {
-            for k in (0..LANES).filter(|&k| weights[k] > 0.0) {
-                let (value, pdf) = self.scatterer.scatter_toward(-at(toward, k), incoming);
-                scattered.pdf[k] = pdf;
-                for (channel, value) in scattered.value.iter_mut().zip(value.to_array()) {
-                    channel[k] = value;
-                }
+        for k in 0..LANES {
+            let (value, pdf) = self.optics.reflected(self.normal, -at(toward, k), incoming);
+            scattered.pdf[k] = pdf;
+            for (channel, value) in scattered.value.iter_mut().zip(value) {
+                channel[k] = value;
             }
         }
         // What a lane without a share scatters means nothing, and may not be a number.

@@ -55,7 +55,8 @@ impl Task for FoundByScattering<'_> {
     fn run(self) -> f32 {
         let (toward, squared) = directions_to(&self.firsts.points, self.place);
         let mut scattered = Scattered::default();
-        self.firsts.densities(&toward, &mut scattered);
+        let member = |k| self.firsts.points.is_at(k, self.depth);
+        self.firsts.densities(&toward, member, &mut scattered);
         let arriving = std::array::from_fn(|k| -at(&toward, k).dot(self.normal));
         sum_over_area(&self.firsts.points, self.depth, &scattered.pdf, &arriving, &squared)
     }

@@ -136,19 +136,19 @@ impl Task for Densities<'_> {
             }
             let (geometric, shading) = (at(&seconds.geometric_normal, j), at(&seconds.normal, j));
             let (toward, squared) = directions_to(&firsts.points, at(&seconds.position, j));
-            firsts.densities(&toward, &mut scattered);
+            let arriving: Lanes = std::array::from_fn(|k| -at(&toward, k).dot(geometric));
+            // Only paths of one length so far: how much longer they may get is then the same for all.
+            let member = |k: usize| firsts.connects(k, seconds.depth[j].wrapping_sub(1));
+            firsts.densities(&toward, |k| arriving[k] > 0.0 && member(k), &mut scattered);
             let mut most = 0.0_f32;
             for k in 0..LANES {
-                let direction = at(&toward, k);
-                let (arriving, shaded) = (-direction.dot(geometric), -direction.dot(shading));
+                let shaded = -at(&toward, k).dot(shading);
                 // Who looks at a flatter angle would see another shading frame.
-                let alike = (shaded >= LEAST_COSINE) | (shaded >= arriving);
+                let alike = (shaded >= LEAST_COSINE) | (shaded >= arriving[k]);
                 // Not a number where both points are one.
-                let density = scattered.pdf[k] * arriving / squared[k];
-                let seen = (density < f32::INFINITY) & (arriving > 0.0) & alike;
-                // Only paths of one length so far: how much longer they may get is then the same for all.
-                let member = firsts.points.is_at(k, seconds.depth[j].wrapping_sub(1));
-                row[k] = if seen & member { density } else { 0.0 };
+                let density = scattered.pdf[k] * arriving[k] / squared[k];
+                let seen = (density < f32::INFINITY) & (arriving[k] > 0.0) & alike;
+                row[k] = if seen & member(k) { density } else { 0.0 };
                 most = if row[k] > most { row[k] } else { most };
             }
             let least = most * LEAST_PART;

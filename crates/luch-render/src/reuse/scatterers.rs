@@ -30,6 +30,8 @@ pub(super) struct Scatterers {
     color: Vectors,
     /// Those that are neither diffuse nor simple metals.
     others: Vec<(usize, Scatterer)>,
+    /// Their lanes.
+    apart: u32,
 }
 
 /// What metals need besides; `alpha` is 0 where there is none.
@@ -69,6 +71,7 @@ impl Scatterers {
     pub(super) fn clear(&mut self) {
         self.points.clear();
         self.others.clear();
+        self.apart = 0;
         if self.metals.any {
             self.metals = Metals::default();
         }
@@ -100,6 +103,7 @@ impl Scatterers {
             _ => {
                 self.points.set(lane, exit, depth);
                 self.others.push((lane, *scatterer));
+                self.apart |= 1 << lane;
             }
         }
     }
@@ -107,6 +111,13 @@ impl Scatterers {
     /// Whether all are diffuse: value over density is their colour.
     pub(super) fn is_diffuse(&self) -> bool {
         !self.metals.any && self.others.is_empty()
+    }
+
+    /// Whether a lane of this depth takes part in connections. Surfaces that must be asked one by one do not: what they gain is
+    /// less than what it takes.
+    #[inline(always)]
+    pub(super) fn connects(&self, lane: usize, depth: u32) -> bool {
+        self.points.is_at(lane, depth) & (self.apart >> lane & 1 == 0)
     }
 
     /// Albedo of a diffuse lane.
@@ -134,18 +145,28 @@ impl Scatterers {
         self.others.iter().find(|(other, _)| *other == lane).map(|(_, scatterer)| scatterer)
     }
 
-    /// Fills in the densities alone; values are left with what they are.
+    /// Fills in the densities alone; values are left with what they are. Lanes that are not `wanted` may be told anything.
     #[inline(always)]
-    pub(super) fn densities(&self, toward: &Vectors, scattered: &mut Scattered) {
+    pub(super) fn densities(
+        &self,
+        toward: &Vectors,
+        wanted: impl Fn(usize) -> bool,
+        scattered: &mut Scattered,
+    ) {
         self.cosines(toward, scattered);
         if !self.is_diffuse() {
-            self.replace::<false>(toward, scattered);
+            self.replace::<false>(toward, wanted, scattered);
         }
     }
 
-    /// Values and densities.
+    /// Values and densities. Lanes that are not `wanted` may be told anything.
     #[inline(always)]
-    pub(super) fn evaluate(&self, toward: &Vectors, scattered: &mut Scattered) {
+    pub(super) fn evaluate(
+        &self,
+        toward: &Vectors,
+        wanted: impl Fn(usize) -> bool,
+        scattered: &mut Scattered,
+    ) {
         self.cosines(toward, scattered);
         for (value, color) in scattered.value.iter_mut().zip(&self.color) {
             for l in 0..LANES {
@@ -153,7 +174,7 @@ impl Scatterers {
             }
         }
         if !self.is_diffuse() {
-            self.replace::<true>(toward, scattered);
+            self.replace::<true>(toward, wanted, scattered);
         }
     }
 
@@ -171,7 +192,12 @@ impl Scatterers {
 
     /// Puts in what is not diffuse.
     #[inline(always)]
-    fn replace<const VALUES: bool>(&self, toward: &Vectors, scattered: &mut Scattered) {
+    fn replace<const VALUES: bool>(
+        &self,
+        toward: &Vectors,
+        wanted: impl Fn(usize) -> bool,
+        scattered: &mut Scattered,
+    ) {
         let metals = &self.metals;
         if metals.any {
             for l in 0..LANES {
@@ -195,7 +221,7 @@ impl Scatterers {
                 }
             }
         }
-        for (lane, other) in &self.others {
+        for (lane, other) in self.others.iter().filter(|(lane, _)| wanted(*lane)) {
             let direction = at(toward, *lane);
             let (value, pdf) = other.scatter(direction);
             scattered.pdf[*lane] = pdf;
@@ -212,17 +238,18 @@ impl Scatterer {
         if !self.exit.is_honest(incoming) {
             return (Rgb::BLACK, 0.0);
         }
-        self.scatter_toward(self.toward_viewer, incoming)
-    }
-
-    /// The same toward another viewer; whether light may pass is not asked.
-    pub(super) fn scatter_toward(&self, outgoing: Vec3, incoming: Vec3) -> (Rgb, f32) {
-        let scattered = self.bsdf.evaluate(self.frame.to_local(outgoing), self.frame.to_local(incoming));
+        let outgoing = self.frame.to_local(self.toward_viewer);
+        let scattered = self.bsdf.evaluate(outgoing, self.frame.to_local(incoming));
         (scattered.value, scattered.pdf)
     }
 
+    /// Whether it has a loop of its own: only such surfaces are connected.
+    pub(crate) fn is_simple(&self) -> bool {
+        matches!(self.bsdf, Bsdf::Diffuse(_)) || self.optics().is_some()
+    }
+
     /// What a metal whose light bounces once needs.
-    pub(super) fn optics(&self) -> Option<Optics> {
+    pub(crate) fn optics(&self) -> Option<Optics> {
         let Bsdf::Conductor(metal) = &self.bsdf else { return None };
         let (alpha, eta, k) = metal.single_bounce()?;
         Some(Optics { alpha, eta: eta.to_array(), k: k.to_array() })
@@ -231,7 +258,7 @@ impl Scatterer {
 
 /// A metal with GGX facets.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Optics {
+pub(crate) struct Optics {
     alpha: f32,
     eta: [f32; 3],
     k: [f32; 3],

@@ -43,7 +43,7 @@ impl Task for Share<'_> {
                     continue;
                 }
                 let (toward, _) = directions_to(&firsts.points, bundle.seconds.position(j));
-                firsts.evaluate(&toward, &mut scattered);
+                firsts.evaluate(&toward, |k| row[k] > 0.0, &mut scattered);
                 let mut sent = NONE;
                 for (sent, tail) in sent.iter_mut().zip(tail.to_array()) {
                     for k in 0..LANES {

@@ -83,19 +83,21 @@ impl Task for Weigh<'_> {
         let Self { firsts, gains, depth, shine, partners, bringing } = self;
         let chances = &bringing.chances;
         let all: f32 = chances.iter().sum();
+        // Scattering by the others counts too, in the sum over the bundle.
+        let wanted = |lane: usize| firsts.points.is_at(lane, depth);
         let mut scattered = Scattered::default();
         let mut arriving = NONE;
         // Radiance over density and weight, the same for all channels but for the radiance.
         let mut scale = [0.0_f32; LANES];
         match shine {
             Shine::Each(each) => {
-                firsts.evaluate(&each.toward, &mut scattered);
+                firsts.evaluate(&each.toward, wanted, &mut scattered);
                 arriving = each.irradiance;
                 scale = [1.0 / all; LANES];
             }
             Shine::Alike(shone) if shone.pdf_area == 0.0 => {
                 let toward = [[shone.place.x; LANES], [shone.place.y; LANES], [shone.place.z; LANES]];
-                firsts.evaluate(&toward, &mut scattered);
+                firsts.evaluate(&toward, wanted, &mut scattered);
                 for l in 0..LANES {
                     // Against the path's own scattering; a light without extent has no rival.
                     let ratio = scattered.pdf[l] / (chances[l] * partners * shone.pdf);
@@ -105,7 +107,7 @@ impl Task for Weigh<'_> {
             }
             Shine::Alike(shone) => {
                 let (toward, squared) = directions_to(&firsts.points, shone.place);
-                firsts.evaluate(&toward, &mut scattered);
+                firsts.evaluate(&toward, wanted, &mut scattered);
                 let front: Lanes = std::array::from_fn(|l| -at(&toward, l).dot(shone.normal));
                 let back = front.map(|cosine| -cosine);
                 let light = all * shone.pdf_area;
