@@ -5,17 +5,17 @@ use std::path::Path;
 
 /// The layers, lowest first. Crates of one layer do not see one another.
 const LAYERS: [&[&str]; 6] = [
-    &["luch-sampling", "luch-bvh", "luch-image"],
+    &["luch-sampling", "luch-bvh", "luch-image", "luch-formula"],
     &["luch-mesh"],
     &["luch-scene"],
-    &["luch-formats", "luch-render"],
+    &["luch-formats", "luch-render", "luch-preview"],
     &["luch"],
     &["luch-cli"],
 ];
 
 /// Where an outside crate may be used; anything not named here may be used anywhere.
 const ADDRESSES: [(&str, &[&str]); 10] = [
-    ("rayon", &["luch-bvh", "luch-render"]),
+    ("rayon", &["luch-bvh", "luch-render", "luch-mesh", "luch-preview"]),
     ("clap", &["luch-cli"]),
     ("ctrlc", &["luch-cli"]),
     ("png", &["luch-image"]),

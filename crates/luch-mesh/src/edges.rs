@@ -24,13 +24,18 @@ impl Edges {
     /// Sorts the half-edges of triangles whose indices are below `vertex_count`; time O(n log m) with m the highest
     /// number of edges at a vertex. Half-edges from a vertex to itself are left out.
     pub fn new(triangles: &[[u32; 3]], vertex_count: usize) -> Self {
+        Self::from_ends(triangles.len() * 3, vertex_count, |half_edge| half_edge_ends(triangles, half_edge))
+    }
+
+    /// The same for any half-edges, numbered below `count`, whose start and end `ends_of` tells.
+    pub fn from_ends(count: usize, vertex_count: usize, ends_of: impl Fn(u32) -> [u32; 2]) -> Self {
         // Counting sort by the lower end.
         let ends = |half_edge: usize| {
-            let [from, to] = half_edge_ends(triangles, half_edge as u32);
+            let [from, to] = ends_of(half_edge as u32);
             [from.min(to), from.max(to)]
         };
         let mut buckets = vec![0u32; vertex_count + 1];
-        for half_edge in 0..triangles.len() * 3 {
+        for half_edge in 0..count {
             let [low, high] = ends(half_edge);
             buckets[low as usize + 1] += u32::from(low != high);
         }
@@ -40,7 +45,7 @@ impl Edges {
         let total = buckets[vertex_count] as usize;
         let mut next = buckets.clone();
         let mut keyed = vec![0u64; total];
-        for half_edge in 0..triangles.len() * 3 {
+        for half_edge in 0..count {
             let [low, high] = ends(half_edge);
             if low != high {
                 let place = &mut next[low as usize];
@@ -78,9 +83,14 @@ impl Edges {
 
     /// The edges, rising by lower end, then higher end. `triangles` must be the list given to [`Edges::new`].
     pub fn iter<'a>(&'a self, triangles: &'a [[u32; 3]]) -> impl Iterator<Item = Edge<'a>> {
+        self.iter_ends(|half_edge| half_edge_ends(triangles, half_edge))
+    }
+
+    /// The same for any half-edges; `ends_of` must be what was given to [`Edges::from_ends`].
+    pub fn iter_ends<'a>(&'a self, ends_of: impl Fn(u32) -> [u32; 2] + 'a) -> impl Iterator<Item = Edge<'a>> {
         self.starts.windows(2).map(move |range| {
             let half_edges = &self.half_edges[range[0] as usize..range[1] as usize];
-            let [from, to] = half_edge_ends(triangles, half_edges[0]);
+            let [from, to] = ends_of(half_edges[0]);
             Edge { vertices: [from.min(to), from.max(to)], half_edges }
         })
     }

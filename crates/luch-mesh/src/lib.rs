@@ -30,20 +30,34 @@
 //! ```
 
 pub mod barycentric;
+pub mod boolean;
 pub mod clean;
 pub mod codec;
 pub mod edges;
+pub mod edit;
 pub mod generate;
+pub mod height_map;
+pub mod implicit;
+pub mod inspect;
 pub mod measure;
 pub mod normals;
+pub mod outline;
+pub mod patch;
 pub mod polygon_mesh;
+pub mod query;
+pub mod repair;
+pub mod scatter;
 mod sets;
+pub mod simplify;
+pub mod smooth;
 mod statistics;
+pub mod subdivide;
 mod transform;
 mod triangle_mesh;
 pub mod unify;
 mod validate;
 pub mod weld;
+pub mod workshop;
 
 pub use barycentric::Barycentric;
 pub use generate::Generator;

@@ -1,6 +1,9 @@
 //! Faces of any size: what editors and files have, before triangles are made of them.
 
 mod cracks;
+mod crease;
+mod flip;
+mod half_edges;
 mod not_finite;
 mod smoothing;
 mod triangulate;
@@ -11,6 +14,8 @@ use glam::{Vec2, Vec3, Vec4};
 use serde::{Deserialize, Serialize};
 
 use crate::TriangleMesh;
+pub use crease::{Crease, SharpVertex};
+pub use half_edges::HalfEdges;
 pub use triangulate::Triangulation;
 
 /// Values at the corners of faces, shared through indices.
@@ -70,6 +75,10 @@ pub struct PolygonMesh {
     pub slots: Vec<u16>,
     /// For each face its smoothing group, 0 for none; empty if there are no groups.
     pub smoothing_groups: Vec<u32>,
+    /// Edges that subdivision keeps sharp, in no order; an edge that is named twice is as sharp as the sharper of both.
+    pub creases: Vec<Crease>,
+    /// Vertices that subdivision keeps sharp.
+    pub sharp_vertices: Vec<SharpVertex>,
 }
 
 /// A hole in a face: its border runs from `start` to the next hole of the face or the face's end.
@@ -147,6 +156,8 @@ impl From<&TriangleMesh> for PolygonMesh {
             colors: corners(&mesh.colors),
             slots: mesh.slots.clone(),
             smoothing_groups: Vec::new(),
+            creases: Vec::new(),
+            sharp_vertices: Vec::new(),
         }
     }
 }

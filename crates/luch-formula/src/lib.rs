@@ -1,0 +1,1 @@
+//! A formula in text becomes a fast function.

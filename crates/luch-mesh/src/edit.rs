@@ -1,0 +1,1 @@
+//! Changing polygons by hand: selections, topology, deformations.

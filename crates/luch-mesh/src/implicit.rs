@@ -1,0 +1,1 @@
+//! Surfaces where a function is zero.

@@ -1,0 +1,1 @@
+//! Outlines in the plane, with holes, and the bodies made of them.

@@ -1,0 +1,1 @@
+//! Curves and patches of splines.

@@ -1,0 +1,1 @@
+//! Nearest point, inside, distance, rays.

@@ -1,0 +1,1 @@
+//! Putting broken meshes right.

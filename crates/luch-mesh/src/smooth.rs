@@ -1,0 +1,1 @@
+//! Smoother surfaces and more even triangles.

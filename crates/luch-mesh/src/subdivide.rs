@@ -1,0 +1,1 @@
+//! Subdivision surfaces.

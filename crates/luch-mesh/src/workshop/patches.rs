@@ -1,0 +1,6 @@
+//! Patches of splines.
+
+use super::Verb;
+
+/// The verbs of this group.
+pub(super) const VERBS: &[Verb] = &[];

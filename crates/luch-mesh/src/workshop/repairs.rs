@@ -1,0 +1,6 @@
+//! Putting right, smoothing, reducing, booleans.
+
+use super::Verb;
+
+/// The verbs of this group.
+pub(super) const VERBS: &[Verb] = &[];

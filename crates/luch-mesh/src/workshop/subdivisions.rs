@@ -1,0 +1,6 @@
+//! Subdivision surfaces.
+
+use super::Verb;
+
+/// The verbs of this group.
+pub(super) const VERBS: &[Verb] = &[];

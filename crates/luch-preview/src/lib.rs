@@ -1,0 +1,1 @@
+//! A quick look: z-buffer and wireframe, without light transport.
