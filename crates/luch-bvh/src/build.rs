@@ -12,20 +12,23 @@ mod collapse;
 mod costs;
 mod few;
 mod item;
+mod lanes;
 mod morton;
 mod partition;
+mod plan;
 mod reinsert;
 mod spatial;
 #[cfg(test)]
 mod tests;
 
+use crate::Triangle;
 use crate::wide::Wide;
-use crate::{Aabb, Triangle};
 use binary::{Binary, Grown};
-use binned::{Buffers, Plan};
+use binned::Buffers;
 use bounds::{Bounds, Scale};
 use collapse::collapse;
-use item::Item;
+pub(crate) use item::Item;
+use plan::{Extent, Plan};
 use rayon::prelude::*;
 
 /// How much time a build takes for how good a tree.
@@ -46,56 +49,49 @@ impl Quality {
     pub const ALL: [Self; 3] = [Self::Fast, Self::Balanced, Self::Best];
 }
 
-/// A primitive to be put into the tree.
-#[derive(Clone, Copy)]
-pub(crate) struct Reference {
-    pub(crate) bounds: Aabb,
-    pub(crate) primitive: u32,
-}
-
-impl Reference {
-    /// `None` for an empty box or one that is not a number: such a primitive is never hit.
-    pub(crate) fn new(bounds: Aabb, primitive: u32) -> Option<Self> {
-        (!bounds.is_empty()).then_some(Self { bounds, primitive })
-    }
-}
-
 /// What spatial splits ask the owner of the primitives.
 pub(crate) trait Clip: Sync {
     /// The primitive, if it is a triangle that [may be cut](Triangle::may_be_cut).
     fn triangle(&self, primitive: u32) -> Option<Triangle>;
 }
 
-/// Builds the wide tree over the references, which it uses up. With `clip` a primitive may be in more than one leaf.
-pub(crate) fn build_wide(references: &mut Vec<Reference>, quality: Quality, clip: Option<&dyn Clip>) -> Wide {
-    let tree = binary(references, quality, clip);
-    references.clear();
-    collapse(&tree)
+/// The items of as many primitives as there are, made on all threads; `None` for what has no place in the tree.
+pub(crate) fn items(count: usize, item: impl Fn(usize) -> Option<Item> + Sync) -> Vec<Item> {
+    let made = (0..count).into_par_iter().map(|place| item(place).unwrap_or(Item::NOTHING));
+    let mut items: Vec<Item> = made.collect();
+    items.retain(|item| !item.bounds().is_empty());
+    items
+}
+
+/// Builds the wide tree over the items, which it uses up. With `clip` a primitive may be in more than one leaf.
+pub(crate) fn build_wide(items: Vec<Item>, quality: Quality, clip: Option<&dyn Clip>) -> Wide {
+    collapse(&binary(items, quality, clip))
 }
 
 /// Builds the binary tree.
-fn binary(references: &[Reference], quality: Quality, clip: Option<&dyn Clip>) -> Binary {
-    let mut items: Vec<Item> =
-        references.par_iter().map(|reference| Item::new(&reference.bounds, reference.primitive)).collect();
-    let whole = items.par_iter().map(Item::bounds).reduce(|| Bounds::EMPTY, |a, b| a.union(&b));
+fn binary(mut items: Vec<Item>, quality: Quality, clip: Option<&dyn Clip>) -> Binary {
+    let union = |items: &[Item]| items.iter().fold(Bounds::EMPTY, |all, item| all.union(&item.bounds()));
+    let whole = items.par_chunks(4096).map(union).reduce(|| Bounds::EMPTY, |a, b| a.union(&b));
     let scale = Scale::of(&whole);
     if items.is_empty() {
         return Binary { nodes: Vec::new(), order: Vec::new(), scale };
     }
-    let plan = Plan { scale, leaf: 4, bins: 32, depth: binned::MAX_DEPTH };
+    let plan = Plan { scale, leaf_bits: 2, bins: 32, depth: binned::MAX_DEPTH };
+    let extent = Extent::of(&items, scale);
     let Grown { nodes, order } = match (quality, clip) {
-        (Quality::Fast, _) => morton::grow(&items, plan),
+        (Quality::Fast, _) => morton::grow(&items, &extent.middles, plan),
         (Quality::Best, Some(clip)) => spatial::grow(items, clip, plan).joined(),
         _ => {
             let mut spare = items.clone();
-            binned::grow(Buffers { items: &mut items, spare: &mut spare }, 0, plan).joined()
+            binned::grow(Buffers { items: &mut items, spare: &mut spare }, extent, 0, plan).joined()
         }
     };
     let mut tree = Binary { nodes, order, scale };
     match quality {
         Quality::Fast => {}
-        Quality::Balanced => reinsert::improve(&mut tree, 2, 8),
-        Quality::Best => reinsert::improve(&mut tree, 4, 2),
+        Quality::Balanced => reinsert::improve(&mut tree, 4, 32),
+        // Nodes in their new order between passes: the next pass finds its way faster.
+        Quality::Best => (0..4).for_each(|_| reinsert::improve(&mut tree, 1, 2)),
     }
     tree
 }

@@ -1,6 +1,6 @@
 //! A tree over boxes; what is in them only the caller knows.
 
-use crate::build::{Quality, Reference, build_wide};
+use crate::build::{Item, Quality, build_wide, items};
 use crate::simd::{Isa, Kernel, Prepared, Stack, launch, walk};
 use crate::tree::{Statistics, Tree};
 use crate::wide::NO_PRIMITIVE;
@@ -36,10 +36,9 @@ impl Bvh {
     /// Builds the tree on as many threads as the rayon pool has; the result is the same for any number of them.
     /// At most 2³² boxes; those beyond are left out.
     pub fn build(boxes: &[Aabb], quality: Quality) -> Self {
-        let numbered = (0..u32::MAX).zip(boxes);
-        let mut references: Vec<_> =
-            numbered.filter_map(|(primitive, bounds)| Reference::new(*bounds, primitive)).collect();
-        let wide = build_wide(&mut references, quality, None);
+        let boxes = &boxes[..boxes.len().min(u32::MAX as usize)];
+        let item = |primitive: usize| Item::new(&boxes[primitive], primitive as u32);
+        let wide = build_wide(items(boxes.len(), item), quality, None);
         let own = |primitive: u32| match primitive {
             NO_PRIMITIVE => Aabb::empty(),
             primitive => boxes[primitive as usize],

@@ -1,6 +1,6 @@
 //! A tree over triangles, each kept where its leaf finds it.
 
-use crate::build::{Quality, Reference, build_wide};
+use crate::build::{Item, Quality, build_wide, items};
 use crate::simd::{Block, Isa, Kernel, Mesh, Stack, any_in_mesh, launch, nearest_in_mesh};
 use crate::tree::{Statistics, Tree};
 use crate::triangle::{Triangle, TriangleClip, nearest_point};
@@ -21,16 +21,15 @@ impl TriangleBvh {
     /// Each triangle names its three corners, counter-clockwise seen from outside; at most 2³² triangles.
     pub fn build(positions: &[Vec3], triangles: &[[u32; 3]], quality: Quality) -> Self {
         let triangles = &triangles[..triangles.len().min(u32::MAX as usize)];
-        let reference = |(primitive, corners): (usize, &[u32; 3])| {
-            let triangle = Triangle::of_mesh(positions, *corners).filter(Triangle::is_finite)?;
-            Reference::new(triangle.bounds(), primitive as u32)
+        let item = |primitive: usize| {
+            let triangle = Triangle::of_mesh(positions, triangles[primitive]).filter(Triangle::is_finite)?;
+            Item::new(&triangle.bounds(), primitive as u32)
         };
-        let mut references: Vec<_> = triangles.par_iter().enumerate().filter_map(reference).collect();
         let corners = |primitive: u32| {
             let [a, b, c] = triangles[primitive as usize].map(|corner| positions[corner as usize]);
             Triangle { a, b, c }
         };
-        let wide = build_wide(&mut references, quality, Some(&TriangleClip(corners)));
+        let wide = build_wide(items(triangles.len(), item), quality, Some(&TriangleClip(corners)));
         let blocks = wide.leaves.par_iter().map(|leaf| Block::new(*leaf, corners)).collect();
         Self { mesh: Mesh::new(Tree::new(wide), blocks) }
     }

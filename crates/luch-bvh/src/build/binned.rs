@@ -1,15 +1,20 @@
 //! Top-down: sort the middles into bins along each axis and split between two of them.
 //!
 //! Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies" (2007). A leaf costs what its blocks of four cost, not
-//! its primitives, and four or fewer are never split. Counts, minima and maxima are all that is gathered across threads,
-//! and those are exact in any grouping, so the tree is the same for any number of threads.
+//! its primitives, and four or fewer are never split. Each level of the tree reads its items twice: once into the bins, which
+//! also tell the boxes of the children, and once to part them, which tells the boxes of the children's middles. Counts,
+//! minima and maxima are all that is gathered across threads, and those are exact in any grouping, so the tree is the same
+//! for any number of threads.
 
 use super::binary::{BinaryNode, Grown, Piece};
-use super::bins::{Bins, Grid};
-use super::bounds::{Bounds, Scale};
+use super::bins::{Bins, Candidate, Cut, Grid};
+use super::bounds::Bounds;
 use super::few;
 use super::item::Item;
-use super::partition::{partition, partition_parallel};
+use super::lanes::run;
+use super::partition::{Middles, partition, partition_apart};
+use super::plan::{Extent, Plan};
+use crate::simd::Task;
 use rayon::prelude::*;
 
 /// No way through a binary tree is longer, unless there are more than 2²⁶ items; then it is by some levels.
@@ -17,54 +22,7 @@ pub(super) const MAX_DEPTH: u32 = 64;
 /// Pieces of the tree with more items are shared out to threads.
 const PIECE: usize = 4096;
 /// The items of one node are shared out to threads in portions of so many.
-pub(super) const PORTION: usize = 8192;
-
-/// What a top-down build aims at.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Plan {
-    pub(super) scale: Scale,
-    /// The most items of a leaf: a power of two.
-    pub(super) leaf: usize,
-    /// The most bins along an axis.
-    pub(super) bins: usize,
-    /// The longest way through the tree.
-    pub(super) depth: u32,
-}
-
-impl Plan {
-    /// Leaf blocks that so many items need.
-    #[inline(always)]
-    pub(super) fn blocks(self, count: u32) -> f32 {
-        count.div_ceil(self.leaf as u32) as f32
-    }
-}
-
-/// The box of some items and the box of their middles.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Extent {
-    pub(super) bounds: Bounds,
-    pub(super) middles: Bounds,
-}
-
-impl Extent {
-    pub(super) fn of(items: &[Item], scale: Scale) -> Self {
-        let empty = Self { bounds: Bounds::EMPTY, middles: Bounds::EMPTY };
-        if items.len() > 2 * PORTION {
-            let portions = items.par_chunks(PORTION).map(|portion| Self::of(portion, scale));
-            return portions.reduce(
-                || empty,
-                |a, b| Self { bounds: a.bounds.union(&b.bounds), middles: a.middles.union(&b.middles) },
-            );
-        }
-        let mut extent = empty;
-        for item in items {
-            let bounds = item.bounds();
-            extent.bounds = extent.bounds.union(&bounds);
-            extent.middles.grow(scale.middle(&bounds));
-        }
-        extent
-    }
-}
+const PORTION: usize = 8192;
 
 /// Two buffers of the same length; the items lie in the first.
 pub(super) struct Buffers<'a> {
@@ -82,16 +40,18 @@ impl<'a> Buffers<'a> {
 }
 
 /// Grows the tree over the items, of which there is at least one.
-pub(super) fn grow(buffers: Buffers, depth: u32, plan: Plan) -> Piece {
+pub(super) fn grow(buffers: Buffers, extent: Extent, depth: u32, plan: Plan) -> Piece {
     if buffers.items.len() <= PIECE {
-        let mut grower = Grower::new(buffers.items.len(), plan);
-        grower.grow(buffers, depth, 0);
-        return Piece::Grown(grower.grown);
+        return Piece::Grown(run(Grow { buffers, extent, depth, plan }));
     }
-    let extent = Extent::of(buffers.items, plan.scale);
-    let at = split(&mut Bins::new(), buffers.items, buffers.spare, &extent, depth, plan);
+    let Split { at, extents } = if buffers.items.len() <= 2 * PORTION {
+        run(SplitOnce { items: buffers.items, spare: buffers.spare, extent, depth, plan })
+    } else {
+        split_parallel(buffers.items, buffers.spare, &extent, depth, plan)
+    };
     let [left, right] = buffers.split(at);
-    let (left, right) = rayon::join(|| grow(left, depth + 1, plan), || grow(right, depth + 1, plan));
+    let (left, right) =
+        rayon::join(|| grow(left, extents[0], depth + 1, plan), || grow(right, extents[1], depth + 1, plan));
     Piece::Pair(extent.bounds, Box::new([left, right]))
 }
 
@@ -102,55 +62,155 @@ pub(super) fn grow_side_by_side(
     depth: u32,
     plan: Plan,
 ) -> Grown {
-    let mut grower = Grower::new(buffers.items.len(), plan);
-    grower.grown.nodes.resize(ends.len(), BinaryNode::leaf(&Bounds::EMPTY, 0, 0));
-    let Buffers { mut items, mut spare } = buffers;
-    let mut start = 0;
-    for (place, end) in ends.enumerate() {
-        let (mine, others) = items.split_at_mut(end - start);
-        items = others;
-        let (mine_spare, others) = spare.split_at_mut(end - start);
-        spare = others;
-        start = end;
-        grower.grow(Buffers { items: mine, spare: mine_spare }, depth, place);
+    run(GrowSeveral { buffers, ends, depth, plan })
+}
+
+struct Grow<'a> {
+    buffers: Buffers<'a>,
+    extent: Extent,
+    depth: u32,
+    plan: Plan,
+}
+
+impl Task for Grow<'_> {
+    type Output = Grown;
+    #[inline(always)]
+    fn run(self) -> Grown {
+        let mut grower = Grower::new(self.buffers.items.len(), self.plan);
+        let end = self.buffers.items.len();
+        let root = Job { start: 0, end, swapped: false, depth: self.depth, place: 0, extent: self.extent };
+        grower.waiting.push(root);
+        grower.grow(self.buffers);
+        grower.grown
     }
-    grower.grown
+}
+
+struct GrowSeveral<'a, I> {
+    buffers: Buffers<'a>,
+    ends: I,
+    depth: u32,
+    plan: Plan,
+}
+
+impl<I: ExactSizeIterator<Item = usize>> Task for GrowSeveral<'_, I> {
+    type Output = Grown;
+    #[inline(always)]
+    fn run(self) -> Grown {
+        let Self { buffers, ends, depth, plan } = self;
+        let mut grower = Grower::new(buffers.items.len(), plan);
+        grower.grown.nodes.resize(ends.len(), BinaryNode::leaf(&Bounds::EMPTY, 0, 0));
+        let mut start = 0;
+        for (place, end) in ends.enumerate() {
+            let extent = Extent::within(&buffers.items[start..end], plan.scale);
+            grower.waiting.push(Job { start, end, swapped: false, depth, place, extent });
+            start = end;
+        }
+        // The first is to be taken first.
+        grower.waiting.reverse();
+        grower.grow(buffers);
+        grower.grown
+    }
+}
+
+/// Items that are to become a tree.
+struct Job {
+    start: usize,
+    end: usize,
+    /// Whether they lie in the second buffer.
+    swapped: bool,
+    depth: u32,
+    place: usize,
+    extent: Extent,
 }
 
 /// Grows one piece on one thread.
 struct Grower {
     grown: Grown,
     bins: Bins,
+    waiting: Vec<Job>,
     plan: Plan,
 }
 
 impl Grower {
+    #[inline(always)]
     fn new(count: usize, plan: Plan) -> Self {
-        let mut nodes = Vec::with_capacity(2 * count / plan.leaf + 1);
+        let mut nodes = Vec::with_capacity(2 * count / plan.leaf() + 1);
         nodes.push(BinaryNode::leaf(&Bounds::EMPTY, 0, 0));
-        Self { grown: Grown { nodes, order: Vec::with_capacity(count) }, bins: Bins::new(), plan }
+        let grown = Grown { nodes, order: Vec::with_capacity(count) };
+        Self { grown, bins: Bins::new(), waiting: Vec::new(), plan }
     }
 
-    fn grow(&mut self, buffers: Buffers, depth: u32, place: usize) {
-        let extent = Extent::of(buffers.items, self.plan.scale);
-        let count = buffers.items.len();
-        if count <= self.plan.leaf {
-            let first = self.grown.order.len() as u32;
-            self.grown.order.extend(buffers.items.iter().map(Item::primitive));
-            self.grown.nodes[place] = BinaryNode::leaf(&extent.bounds, first, count as u32);
-            return;
+    /// Grows all that waits, what lies in front first.
+    #[inline(always)]
+    fn grow(&mut self, buffers: Buffers) {
+        let Buffers { items: first, spare: second } = buffers;
+        while let Some(job) = self.waiting.pop() {
+            let Job { start, end, swapped, depth, place, extent } = job;
+            let (items, spare) =
+                if swapped { (&mut *second, &mut *first) } else { (&mut *first, &mut *second) };
+            let (items, spare) = (&mut items[start..end], &mut spare[start..end]);
+            if items.len() <= self.plan.leaf() {
+                let order = self.grown.order.len() as u32;
+                self.grown.order.extend(items.iter().map(Item::primitive));
+                self.grown.nodes[place] = BinaryNode::leaf(&extent.bounds, order, items.len() as u32);
+                continue;
+            }
+            let Split { at, extents: [left, right] } =
+                split(&mut self.bins, items, spare, &extent, depth, self.plan);
+            let children = self.grown.nodes.len();
+            self.grown.nodes[place] = BinaryNode::inner(&extent.bounds, children as u32);
+            self.grown.nodes.extend([BinaryNode::leaf(&Bounds::EMPTY, 0, 0); 2]);
+            let (depth, swapped, middle) = (depth + 1, !swapped, start + at);
+            self.waiting.push(Job { start: middle, end, swapped, depth, place: children + 1, extent: right });
+            self.waiting.push(Job { start, end: middle, swapped, depth, place: children, extent: left });
         }
-        let at = split(&mut self.bins, buffers.items, buffers.spare, &extent, depth, self.plan);
-        let children = self.grown.nodes.len();
-        self.grown.nodes[place] = BinaryNode::inner(&extent.bounds, children as u32);
-        self.grown.nodes.extend([BinaryNode::leaf(&Bounds::EMPTY, 0, 0); 2]);
-        let [left, right] = buffers.split(at);
-        self.grow(left, depth + 1, children);
-        self.grow(right, depth + 1, children + 1);
     }
 }
 
-/// Puts the items into `spare`, those of the first child before the others, and returns how many they are.
+/// How many items the first child has, and what is known of both.
+struct Split {
+    at: usize,
+    extents: [Extent; 2],
+}
+
+impl Split {
+    #[inline(always)]
+    fn new(at: usize, [left, right]: [Bounds; 2], middles: Middles) -> Self {
+        let [left_middles, right_middles] = middles.0;
+        let extents = [
+            Extent { bounds: left, middles: left_middles },
+            Extent { bounds: right, middles: right_middles },
+        ];
+        Self { at, extents }
+    }
+}
+
+struct SplitOnce<'a> {
+    items: &'a mut [Item],
+    spare: &'a mut [Item],
+    extent: Extent,
+    depth: u32,
+    plan: Plan,
+}
+
+impl Task for SplitOnce<'_> {
+    type Output = Split;
+    #[inline(always)]
+    fn run(self) -> Split {
+        split(&mut Bins::new(), self.items, self.spare, &self.extent, self.depth, self.plan)
+    }
+}
+
+/// The grid of the bins; `None` if there is nothing to tell the items apart by, or no level to spare.
+#[inline(always)]
+fn grid(extent: &Extent, count: usize, depth: u32, plan: Plan) -> Option<Grid> {
+    // A split in the middle needs this many levels more; below that no freedom is left.
+    let levels = usize::BITS - (count - 1).leading_zeros();
+    if depth + levels < plan.depth { Grid::new(&extent.middles, count, plan) } else { None }
+}
+
+/// Puts the items into `spare`, those of the first child before the others.
+#[inline(always)]
 fn split(
     bins: &mut Bins,
     items: &mut [Item],
@@ -158,36 +218,120 @@ fn split(
     extent: &Extent,
     depth: u32,
     plan: Plan,
-) -> usize {
+) -> Split {
     let count = items.len();
-    if plan.leaf < count && count <= 2 * plan.leaf && plan.leaf == few::LEAF {
-        return few::split(items, spare, plan.scale);
+    if plan.leaf() < count && count <= 2 * plan.leaf() {
+        let parted = few::split(items, spare, plan.scale);
+        // No more is to be known of children that are leaves or again so few.
+        return Split::new(parted.at, parted.sides, Middles::EMPTY);
     }
-    // A split in the middle needs this many levels more; below that no freedom is left.
-    let levels = usize::BITS - (count - 1).leading_zeros();
-    if depth + levels < plan.depth
-        && let Some(grid) = Grid::new(&extent.middles, count, plan)
-    {
-        bins.fill(items, grid);
+    if let Some(grid) = grid(extent, count, depth, plan) {
+        bins.fill(items, &grid);
         if let Some(best) = bins.best(plan) {
-            let before = |item: &Item| {
-                let (low, high) = item.along(best.axis);
-                grid.place_along(plan.scale.middle_along(low, high), best.axis) < best.at
-            };
-            return if count > 2 * PORTION {
-                partition_parallel(items, spare, before)
-            } else {
-                partition(items, spare, before)
-            };
+            let middles = partition(items, spare, &Cut::new(grid, &best));
+            return Split::new(bins.before(&best), bins.sides(&best), middles);
         }
     }
     halve(items, spare, &extent.middles, plan)
 }
 
+/// The same for many items on all threads.
+fn split_parallel(items: &mut [Item], spare: &mut [Item], extent: &Extent, depth: u32, plan: Plan) -> Split {
+    if let Some(grid) = grid(extent, items.len(), depth, plan) {
+        let filled = fill_portions(items, &grid);
+        if let Some(Found { best, sides }) = find(&merged(&filled), plan) {
+            let at = filled.iter().map(|bins| bins.before(&best)).sum();
+            let cut = Cut::new(grid, &best);
+            let (mut front, mut back) = spare.split_at_mut(at);
+            let mut jobs = Vec::with_capacity(filled.len());
+            for (items, bins) in items.chunks(PORTION).zip(filled) {
+                let before = bins.before(&best);
+                let (first, rest) = front.split_at_mut(before);
+                front = rest;
+                let (second, rest) = back.split_at_mut(items.len() - before);
+                back = rest;
+                jobs.push(Part { items, targets: [first, second], cut: &cut });
+            }
+            let middles = jobs.into_par_iter().map(run).reduce(|| Middles::EMPTY, |a, b| a.union(&b));
+            return Split::new(at, sides, middles);
+        }
+    }
+    halve(items, spare, &extent.middles, plan)
+}
+
+/// The bins of each portion of the items.
+fn fill_portions(items: &[Item], grid: &Grid) -> Vec<Bins> {
+    items.par_chunks(PORTION).map(|items| run(Fill { items, grid })).collect()
+}
+
+fn merged(filled: &[Bins]) -> Bins {
+    let mut bins = Bins::new();
+    filled.iter().for_each(|filled| bins.merge(filled));
+    bins
+}
+
+/// The best split of many items and the boxes of both sides.
+pub(super) struct Found {
+    pub(super) best: Candidate,
+    pub(super) sides: [Bounds; 2],
+}
+
+/// The best split by bins, which are filled on all threads.
+pub(super) fn best_split(items: &[Item], grid: &Grid, plan: Plan) -> Option<Found> {
+    find(&merged(&fill_portions(items, grid)), plan)
+}
+
+fn find(bins: &Bins, plan: Plan) -> Option<Found> {
+    run(Find { bins, plan })
+}
+
+struct Find<'a> {
+    bins: &'a Bins,
+    plan: Plan,
+}
+
+impl Task for Find<'_> {
+    type Output = Option<Found>;
+    #[inline(always)]
+    fn run(self) -> Option<Found> {
+        let best = self.bins.best(self.plan)?;
+        Some(Found { sides: self.bins.sides(&best), best })
+    }
+}
+
+struct Fill<'a> {
+    items: &'a [Item],
+    grid: &'a Grid,
+}
+
+impl Task for Fill<'_> {
+    type Output = Bins;
+    #[inline(always)]
+    fn run(self) -> Bins {
+        let mut bins = Bins::new();
+        bins.fill(self.items, self.grid);
+        bins
+    }
+}
+
+struct Part<'a> {
+    items: &'a [Item],
+    targets: [&'a mut [Item]; 2],
+    cut: &'a Cut,
+}
+
+impl Task for Part<'_> {
+    type Output = Middles;
+    #[inline(always)]
+    fn run(self) -> Middles {
+        partition_apart(self.items, self.targets, self.cut)
+    }
+}
+
 /// Splits in the middle along the widest axis, whole blocks first; where middles coincide, in the order as it is.
-fn halve(items: &mut [Item], spare: &mut [Item], middles: &Bounds, plan: Plan) -> usize {
-    let at = (items.len() / 2).next_multiple_of(plan.leaf);
-    let sizes = [0, 1, 2].map(|axis| middles.high[axis] - middles.low[axis]);
+fn halve(items: &mut [Item], spare: &mut [Item], middles: &Bounds, plan: Plan) -> Split {
+    let at = (items.len() / 2).next_multiple_of(plan.leaf());
+    let sizes = [0, 1, 2].map(|axis| middles.high(axis) - middles.low(axis));
     let axis = (1..3).fold(0, |widest, axis| if sizes[axis] > sizes[widest] { axis } else { widest });
     if sizes[axis] > 0.0 {
         let middle = |item: &Item| {
@@ -199,5 +343,6 @@ fn halve(items: &mut [Item], spare: &mut [Item], middles: &Bounds, plan: Plan) -
         });
     }
     spare.copy_from_slice(items);
-    at
+    let (left, right) = items.split_at(at);
+    Split { at, extents: [left, right].map(|items| Extent::of(items, plan.scale)) }
 }

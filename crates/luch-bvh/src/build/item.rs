@@ -5,13 +5,19 @@ use crate::Aabb;
 
 /// A primitive and its box, 32 bytes: half of the number of the primitive lies in the fourth lane of each corner.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Item(Bounds);
+pub(crate) struct Item(Bounds);
 
 impl Item {
-    pub(super) fn new(bounds: &Aabb, primitive: u32) -> Self {
-        Self::of(&Bounds::of(bounds), primitive)
+    /// Something without a place in any tree.
+    pub(super) const NOTHING: Self = Self(Bounds::EMPTY);
+
+    /// `None` for an empty box or one that is not a number: such a primitive is never hit.
+    #[inline(always)]
+    pub(crate) fn new(bounds: &Aabb, primitive: u32) -> Option<Self> {
+        (!bounds.is_empty()).then(|| Self::of(&Bounds::of(bounds), primitive))
     }
 
+    #[inline(always)]
     pub(super) fn of(bounds: &Bounds, primitive: u32) -> Self {
         Self(bounds.with_note(primitive & 0xffff, primitive >> 16))
     }
@@ -31,6 +37,6 @@ impl Item {
     /// Both planes along one axis.
     #[inline(always)]
     pub(super) fn along(&self, axis: usize) -> (f32, f32) {
-        (self.0.low[axis], self.0.high[axis])
+        (self.0.low(axis), self.0.high(axis))
     }
 }

@@ -6,9 +6,10 @@
 //! of a full build, is saved.
 
 use super::binary::Grown;
-use super::binned::{self, Buffers, Extent, Plan};
+use super::binned::{self, Buffers};
 use super::bounds::Bounds;
 use super::item::Item;
+use super::plan::{Extent, Plan};
 use rayon::prelude::*;
 
 /// The most items of a group, unless they share a cell.
@@ -21,8 +22,8 @@ const GROUPS_DEPTH: u32 = 40;
 const BITS: u32 = 10;
 
 /// Grows the tree over the items, of which there is at least one.
-pub(super) fn grow(items: &[Item], plan: Plan) -> Grown {
-    let mut sorted = along_curve(items, plan);
+pub(super) fn grow(items: &[Item], middles: &Bounds, plan: Plan) -> Grown {
+    let mut sorted = along_curve(items, middles, plan);
     let mut ends = Vec::new();
     cut(&sorted.codes, 0, 3 * BITS, &mut ends);
     // Each group one item, numbered by the group.
@@ -34,8 +35,9 @@ pub(super) fn grow(items: &[Item], plan: Plan) -> Grown {
     let mut groups: Vec<Item> =
         (0..ends.len()).into_par_iter().map(|group| Item::of(&bounds(group), group as u32)).collect();
     let mut spare = groups.clone();
-    let above = Plan { leaf: 1, bins: 16, depth: GROUPS_DEPTH, ..plan };
-    let mut tree = binned::grow(Buffers { items: &mut groups, spare: &mut spare }, 0, above).joined();
+    let above = Plan { leaf_bits: 0, bins: 16, depth: GROUPS_DEPTH, ..plan };
+    let extent = Extent::of(&groups, plan.scale);
+    let mut tree = binned::grow(Buffers { items: &mut groups, spare: &mut spare }, extent, 0, above).joined();
     let below = within(&mut sorted.items, &starts, plan);
     graft(&mut tree, below);
     tree
@@ -47,17 +49,16 @@ struct Sorted {
     items: Vec<Item>,
 }
 
-fn along_curve(items: &[Item], plan: Plan) -> Sorted {
-    let middles = Extent::of(items, plan.scale).middles;
+fn along_curve(items: &[Item], middles: &Bounds, plan: Plan) -> Sorted {
     let cells = (1 << BITS) as f32;
     let factor: [f32; 3] = std::array::from_fn(|axis| {
-        let size = middles.high[axis] - middles.low[axis];
+        let size = middles.high(axis) - middles.low(axis);
         if size > 0.0 { cells / size } else { 0.0 }
     });
     let key = |(index, item): (usize, &Item)| {
-        let middle = plan.scale.middle(&item.bounds());
         let cell = |axis: usize| {
-            let cell = ((middle[axis] - middles.low[axis]) * factor[axis]) as u32;
+            let (low, high) = item.along(axis);
+            let cell = ((plan.scale.middle_along(low, high) - middles.low(axis)) * factor[axis]) as u32;
             spread(cell.min((1 << BITS) - 1))
         };
         u64::from(cell(0) << 2 | cell(1) << 1 | cell(2)) << 32 | index as u64

@@ -9,20 +9,17 @@ use super::binary::{Binary, BinaryNode};
 use super::binned::MAX_DEPTH;
 use rayon::prelude::*;
 
-/// Goes over the tree so many times, each time over one in `share` of all nodes, those of the largest areas; leaves alone what it would make too deep.
+/// Goes over the tree so many times, each time over one in `share` of all nodes, those of the largest areas; leaves alone what
+/// that would make too deep.
 pub(super) fn improve(tree: &mut Binary, passes: usize, share: usize) {
-    for _ in 0..passes {
-        let mut changed = Changing::new(tree);
-        if changed.pass(share) == 0 {
-            return;
-        }
-        let nodes = changed.in_order();
-        let better = Binary { nodes, order: std::mem::take(&mut tree.order), scale: tree.scale };
-        if better.heights()[0] as u32 > MAX_DEPTH {
-            tree.order = better.order;
-            return;
-        }
-        *tree = better;
+    let mut changed = Changing::new(tree);
+    let rounds = (0..passes).take_while(|_| changed.pass(share) > 0).count();
+    if rounds == 0 {
+        return;
+    }
+    let better = Binary { nodes: changed.in_order(), order: Vec::new(), scale: tree.scale };
+    if better.heights()[0] as u32 <= MAX_DEPTH {
+        tree.nodes = better.nodes;
     }
 }
 

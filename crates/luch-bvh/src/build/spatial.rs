@@ -4,11 +4,14 @@
 
 use super::Clip;
 use super::binary::Piece;
-use super::binned::{self, Buffers, Extent, Plan};
-use super::bins::{Bins, Candidate, Grid};
-use super::bounds::{Bounds, greatest, least};
+use super::binned::{self, Buffers, Found};
+use super::bins::{Cut, Grid};
+use super::bounds::Bounds;
 use super::item::Item;
+use super::lanes::{Lanes, run};
+use super::plan::{Extent, Plan};
 use crate::Triangle;
+use crate::simd::Task;
 
 /// Planes tried along each axis, plus one.
 const SLICES: usize = 16;
@@ -51,12 +54,27 @@ struct Sides {
     right: Vec<Item>,
 }
 
+/// Parts items without cutting any.
+struct Sort<'a> {
+    items: &'a [Item],
+    cut: Cut,
+}
+
+impl Task for Sort<'_> {
+    type Output = Sides;
+    #[inline(always)]
+    fn run(self) -> Sides {
+        let (left, right) = self.items.iter().partition(|item| self.cut.side(self.cut.middle(item)) == 0);
+        Sides { left, right }
+    }
+}
+
 impl Grower<'_> {
     fn grow(&self, mut items: Vec<Item>, budget: usize, depth: u32) -> Piece {
         let extent = Extent::of(&items, self.plan.scale);
         let Some(Sides { left, right }) = self.split(&items, &extent, budget, depth) else {
             let mut spare = items.clone();
-            return binned::grow(Buffers { items: &mut items, spare: &mut spare }, depth, self.plan);
+            return binned::grow(Buffers { items: &mut items, spare: &mut spare }, extent, depth, self.plan);
         };
         let budget = (budget + items.len()).saturating_sub(left.len() + right.len());
         let share = (budget as u128 * left.len() as u128 / (left.len() + right.len()) as u128) as usize;
@@ -73,10 +91,7 @@ impl Grower<'_> {
             return None;
         }
         let grid = Grid::new(&extent.middles, items.len(), self.plan)?;
-        let mut bins = Bins::new();
-        bins.fill(items, grid);
-        let best = bins.best(self.plan)?;
-        let [left, right] = bins.sides(&best);
+        let Found { best, sides: [left, right] } = binned::best_split(items, &grid, self.plan)?;
         let common = left.intersection(&right);
         if !common.is_empty()
             && self.plan.scale.half_area(&common)
@@ -87,21 +102,13 @@ impl Grower<'_> {
         {
             return Some(sides);
         }
-        Some(self.sort(items, grid, &best))
-    }
-
-    fn sort(&self, items: &[Item], grid: Grid, best: &Candidate) -> Sides {
-        let (left, right) = items.iter().partition(|item| {
-            let (low, high) = item.along(best.axis);
-            grid.place_along(self.plan.scale.middle_along(low, high), best.axis) < best.at
-        });
-        Sides { left, right }
+        Some(run(Sort { items, cut: Cut::new(grid, &best) }))
     }
 
     fn best_plane(&self, items: &[Item], bounds: &Bounds) -> Option<Plane> {
         let mut best: Option<Plane> = None;
         for axis in 0..3 {
-            let (low, size) = (bounds.low[axis], bounds.high[axis] - bounds.low[axis]);
+            let (low, size) = (bounds.low(axis), bounds.high(axis) - bounds.low(axis));
             if !(size > 0.0 && size.is_finite()) {
                 continue;
             }
@@ -213,7 +220,8 @@ impl Cuts {
         let last = first + slices.len() - 1;
         let mut grow = |slice: usize, point: [f32; 4]| {
             if (first..=last).contains(&slice) {
-                slices[slice - first].grow(greatest(bounds.low, least(bounds.high, point)));
+                slices[slice - first]
+                    .grow(Lanes(bounds.lows()).larger(Lanes(bounds.highs()).smaller(Lanes(point))).0);
             }
         };
         let corners = [triangle.a, triangle.b, triangle.c].map(|corner| [corner.x, corner.y, corner.z, 0.0]);

@@ -1,17 +1,18 @@
 //! What a walk relies on, for every quality and every kind of input.
 
 use super::*;
+use crate::Aabb;
 use crate::triangle::{Triangle, TriangleClip};
 use crate::wide::{EMPTY, LEAF, MAX_WIDE_DEPTH, NO_PRIMITIVE};
 use glam::{Vec3, vec3};
 use proptest::prelude::*;
 
-fn references(boxes: &[Aabb]) -> Vec<Reference> {
-    (0..).zip(boxes).filter_map(|(primitive, bounds)| Reference::new(*bounds, primitive)).collect()
+fn items_of(boxes: &[Aabb]) -> Vec<Item> {
+    items(boxes.len(), |primitive| Item::new(&boxes[primitive], primitive as u32))
 }
 
 fn build(boxes: &[Aabb], quality: Quality) -> Wide {
-    build_wide(&mut references(boxes), quality, None)
+    build_wide(items_of(boxes), quality, None)
 }
 
 /// Numbers from 0 to 1, the same each time.
@@ -48,7 +49,7 @@ fn slivers(count: usize) -> Vec<Triangle> {
 fn split(triangles: &[Triangle]) -> Wide {
     let boxes: Vec<Aabb> = triangles.iter().map(Triangle::bounds).collect();
     let clip = TriangleClip(|primitive: u32| triangles[primitive as usize]);
-    build_wide(&mut references(&boxes), Quality::Best, Some(&clip))
+    build_wide(items_of(&boxes), Quality::Best, Some(&clip))
 }
 
 /// Checks the tree and returns how often each primitive is in it. Without splits the box of a leaf must be the union of its
