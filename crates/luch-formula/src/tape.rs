@@ -1,0 +1,119 @@
+//! An expression made ready to be evaluated: a list of instructions on registers.
+//!
+//! Registers hold the inputs first, then the constants, then what is computed; a register is taken again when its number has
+//! been used for the last time, so that the working set stays small. The same list serves numbers, derivatives and ranges.
+
+mod build;
+mod bulk;
+mod bulk_gradient;
+mod enclose;
+mod point;
+mod simplify;
+
+pub use bulk::Evaluator;
+pub use simplify::{Choices, Traced};
+
+use crate::operation::Operation;
+use std::sync::Arc;
+
+/// A compiled calculation: some numbers from an ordered list of inputs.
+///
+/// Every way of evaluating gives the same bits, on every machine; undefined results are all the same not-a-number.
+///
+/// ```
+/// use luch_formula::{Interval, Tape, parse};
+///
+/// let variables = ["x", "y", "z"];
+/// let heart = parse("(x^2+9/4*y^2+z^2-1)^3 - x^2*z^3 - 9/80*y^2*z^3", &variables).unwrap();
+/// let tape = Tape::new(&heart, &variables).unwrap();
+/// assert_eq!(tape.value(&[0.0, 0.0, 0.0]), -1.0);
+///
+/// // Many points, one list a variable.
+/// let mut values = [0.0; 3];
+/// tape.evaluate(&[&[0.0, 1.0, 2.0], &[0.0; 3], &[0.0; 3]], &mut values);
+/// assert_eq!(values, [-1.0, 0.0, 27.0]);
+///
+/// // The derivatives.
+/// let mut gradient = [0.0; 3];
+/// tape.gradient(&[2.0, 0.0, 0.0], &mut gradient);
+/// assert_eq!(gradient, [108.0, 0.0, 0.0]);
+///
+/// // Far from the origin there is no surface.
+/// let far = tape.interval(&[Interval::new(2.0, 3.0), Interval::new(0.0, 1.0), Interval::new(-1.0, 1.0)]);
+/// assert!(far.low > 0.0);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Tape {
+    program: Arc<Program>,
+}
+
+/// What a tape is made of.
+#[derive(Debug, PartialEq)]
+struct Program {
+    inputs: usize,
+    constants: Vec<f64>,
+    /// With the numbers of steps: inputs, constants, then these.
+    operations: Vec<Operation>,
+    /// The steps that are results.
+    outputs: Vec<u32>,
+    /// The same with registers.
+    instructions: Vec<Instruction>,
+    output_registers: Vec<u32>,
+    registers: usize,
+}
+
+/// An operation on registers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Instruction {
+    out: u32,
+    operation: Operation,
+}
+
+/// An expression uses a variable that the list lacks, or the list is longer than a tape can take.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TapeError {
+    /// A variable of the expression that is not in the list.
+    #[error("the formula depends on `{name}`, which is not among the inputs {inputs}")]
+    MissingInput {
+        /// The variable.
+        name: String,
+        /// The inputs, separated by commas.
+        inputs: String,
+    },
+    /// No expression was given.
+    #[error("a tape needs at least one expression")]
+    NoOutput,
+}
+
+impl Tape {
+    /// How many inputs it takes.
+    pub fn inputs(&self) -> usize {
+        self.program.inputs
+    }
+
+    /// How many numbers it gives.
+    pub fn outputs(&self) -> usize {
+        self.program.outputs.len()
+    }
+
+    /// How many operations one evaluation takes.
+    pub fn operations(&self) -> usize {
+        self.program.operations.len()
+    }
+
+    /// How many numbers are held at once.
+    pub fn registers(&self) -> usize {
+        self.program.registers
+    }
+
+    fn check_inputs(&self, given: usize) {
+        assert_eq!(given, self.program.inputs, "one input for each variable of the tape");
+    }
+}
+
+impl PartialEq for Tape {
+    fn eq(&self, other: &Self) -> bool {
+        self.program == other.program
+    }
+}
