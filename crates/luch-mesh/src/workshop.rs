@@ -8,7 +8,7 @@
 //!
 //! let pipeline = Pipeline::parse("cuboid --size 2 | flip")?;
 //! let mesh = pipeline.run(&mut NoFiles)?;
-//! assert_eq!(mesh.face_count(), 12);
+//! assert_eq!(mesh.face_count(), 6);
 //! # Ok::<(), luch_mesh::workshop::WorkshopError>(())
 //! ```
 

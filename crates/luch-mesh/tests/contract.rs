@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use glam::Vec3;
 use luch_mesh::edges::{Edges, half_edge_ends};
+use luch_mesh::generate::Solid;
 use luch_mesh::{Generator, TriangleMesh, measure};
 
 fn for_each(check: impl Fn(Generator, &TriangleMesh)) {
@@ -23,28 +24,87 @@ fn indices_are_in_range_and_values_finite() {
 fn every_position_is_used_and_there_is_only_one_at_a_place() {
     for_each(|generator, mesh| {
         assert_eq!(luch_mesh::clean::remove_unused_positions(mesh).removed, 0, "{generator:?}");
-        assert_eq!(luch_mesh::weld::weld_exact(mesh).merged, 0, "{generator:?}");
+        // The lower end of the teapot's handle touches the body in one point.
+        let touching = usize::from(matches!(generator, Generator::Teapot { .. }));
+        assert_eq!(luch_mesh::weld::weld_exact(mesh).merged, touching, "{generator:?}");
         assert_eq!(luch_mesh::clean::remove_degenerate(mesh).removed, 0, "{generator:?}");
     });
 }
 
-/// Conformity: edges and vertices of neighbours match, each inner edge has two triangles of opposite direction.
+/// Conformity: edges and vertices of neighbours match, each inner edge has two triangles of opposite direction, except
+/// where a surface of one side meets itself.
 #[test]
 fn inner_edges_have_two_triangles_of_opposite_direction() {
     for_each(|generator, mesh| {
         let edges = Edges::new(&mesh.triangles, mesh.positions.len());
-        let mut borders = 0;
+        let (mut borders, mut turned) = (0, 0);
         for edge in edges.iter(&mesh.triangles) {
             let starts: Vec<u32> =
                 edge.half_edges.iter().map(|&h| half_edge_ends(&mesh.triangles, h)[0]).collect();
             match *starts {
                 [_] => borders += 1,
-                [one, other] => assert_ne!(one, other, "{generator:?}: winding at {:?}", edge.vertices),
+                [one, other] => turned += usize::from(one == other),
                 _ => panic!("{generator:?}: {} triangles at {:?}", starts.len(), edge.vertices),
             }
         }
-        assert_eq!(borders == 0, generator.is_closed(), "{generator:?}");
+        assert_eq!(borders > 0, generator.has_border(), "{generator:?}");
+        // One seam across.
+        let expected = match generator {
+            _ if generator.is_orientable() => 0,
+            Generator::Moebius { stacks, .. } => stacks as usize,
+            Generator::KleinBottle { sides, .. } => sides as usize,
+            _ => panic!("{generator:?} has two sides"),
+        };
+        assert_eq!(turned, expected, "{generator:?}");
     });
+}
+
+#[test]
+fn polygons_are_what_the_triangles_come_from() {
+    for_each(|generator, mesh| {
+        let polygons = generator.polygons();
+        assert_eq!(polygons.positions, mesh.positions, "{generator:?}");
+        let corners = |face: usize| polygons.face(face).len();
+        let triangles: usize = (0..polygons.face_count()).map(|face| corners(face) - 2).sum();
+        assert_eq!(triangles, mesh.triangles.len(), "{generator:?}");
+        // The other way to cut them agrees in number and in measures of what is flat.
+        let cut = polygons.triangulation();
+        assert_eq!(
+            (cut.mesh.triangles.len(), cut.dropped_faces, cut.fanned_faces),
+            (triangles, 0, 0),
+            "{generator:?}"
+        );
+        let (least, counted) = (triangles as u64, generator.triangle_count());
+        // Roundings without radius are counted, but not made.
+        let is_tight = counted <= 2 * least + 200 || matches!(generator, Generator::RoundedCuboid { .. });
+        assert!(counted >= least && is_tight, "{generator:?}: {least} of {counted}");
+    });
+}
+
+#[test]
+fn grids_are_of_quads() {
+    let sizes = |generator: Generator| {
+        let polygons = generator.polygons();
+        let mut sizes: Vec<usize> =
+            (0..polygons.face_count()).map(|face| polygons.face(face).len()).collect();
+        sizes.sort_unstable();
+        sizes.dedup();
+        (polygons.face_count(), sizes)
+    };
+    assert_eq!(sizes(Generator::Cuboid { size: Vec3::ONE, divisions: [1; 3] }), (6, vec![4]));
+    assert_eq!(sizes(Generator::Plane { size: glam::Vec2::ONE, divisions: [3, 2] }), (6, vec![4]));
+    assert_eq!(
+        sizes(Generator::RoundedCuboid { size: Vec3::ONE, radius: 0.25, segments: 2 }),
+        (150, vec![4])
+    );
+    assert_eq!(sizes(Generator::Prism { sides: 6, radius: 1.0, height: 1.0 }), (8, vec![4, 6]));
+    assert_eq!(
+        sizes(Generator::Polyhedron { solid: Solid::TruncatedIcosahedron, radius: 1.0 }),
+        (32, vec![5, 6])
+    );
+    assert_eq!(sizes(Generator::Polyhedron { solid: Solid::Dodecahedron, radius: 1.0 }), (12, vec![5]));
+    let torus = Generator::Torus { major_radius: 1.0, minor_radius: 0.5, segments: 6, sides: 5 };
+    assert_eq!(sizes(torus), (30, vec![4]));
 }
 
 #[test]
@@ -53,7 +113,8 @@ fn closedness_and_euler_characteristic_are_as_declared() {
         let report = measure::closedness(mesh);
         assert_eq!(report.is_closed(), generator.is_closed(), "{generator:?}: {report}");
         assert_eq!(report.euler_characteristic, generator.euler_characteristic(), "{generator:?}");
-        assert_eq!((report.components, report.pinched, report.duplicates), (1, 0, 0), "{generator:?}");
+        let pieces = generator.component_count();
+        assert_eq!((report.components, report.pinched, report.duplicates), (pieces, 0, 0), "{generator:?}");
         let genus = report.is_closed().then_some(1 - generator.euler_characteristic() as u64 / 2);
         assert_eq!(report.genus, genus, "{generator:?}");
     });
@@ -72,8 +133,9 @@ fn faces_wind_outward_and_normals_agree() {
                 // A corner's true normal lies within a quarter turn of the facet, by far except on coarse shapes.
                 assert!(normal.dot(facet) > 0.3, "{generator:?}: {normal} on {facet}");
             }
-            if let Generator::Plane { .. } = generator {
-                assert_eq!(facet, Vec3::Y);
+            use Generator::{Annulus, Disc, Plane, Polygon};
+            if let Plane { .. } | Disc { .. } | Annulus { .. } | Polygon { .. } = generator {
+                assert!(facet.y > 1.0 - 1e-6, "{generator:?}: {facet}");
             }
         }
     });
@@ -100,14 +162,21 @@ fn uvs_are_not_mirrored_and_stay_near_the_square() {
 #[test]
 fn area_and_volume_approach_the_shape_with_the_square_of_the_resolution() {
     for generator in Generator::examples() {
+        if generator.area_of_shape().is_none() && generator.volume_of_shape().is_none() {
+            continue;
+        }
         let errors = |factor: u32| {
             let mesh = generator.refined(factor).mesh();
-            let area = (measure::area(&mesh) / generator.area_of_shape() - 1.0).abs();
-            let volume =
-                generator.volume_of_shape().map_or(0.0, |v| (measure::volume(&mesh) / v - 1.0).abs());
-            [area, volume]
+            let error =
+                |found: f64, truth: Option<f64>| truth.map_or(0.0, |truth| (found / truth - 1.0).abs());
+            [
+                error(measure::area(&mesh), generator.area_of_shape()),
+                error(measure::volume(&mesh), generator.volume_of_shape()),
+            ]
         };
-        let (coarse, fine) = (errors(8), errors(16));
+        // Meshes that are fine already need not become as much finer.
+        let factor = if generator.triangle_count() < 400 { 8 } else { 4 };
+        let (coarse, fine) = (errors(factor), errors(2 * factor));
         for (coarse, fine) in coarse.into_iter().zip(fine) {
             // Flat shapes are exact up to the rounding of their positions.
             if coarse > 1e-6 {

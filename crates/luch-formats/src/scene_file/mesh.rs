@@ -122,7 +122,7 @@ impl Decoder<'_> {
             },
         };
         fields.finish(self, "option");
-        self.generated = self.generated.saturating_add(triangle_count(&generator));
+        self.generated = self.generated.saturating_add(generator.triangle_count());
         if self.generated > MOST_GENERATED {
             let message =
                 format!("`{kind}` brings the generated triangles of the scene to {}", self.generated);
@@ -182,20 +182,5 @@ impl Decoder<'_> {
             self.problem(&inner.span, message, None);
         }
         [1; N]
-    }
-}
-
-/// How many triangles a generator makes, or a little more.
-fn triangle_count(generator: &Generator) -> u64 {
-    let grid = |columns: u32, rows: u32| 2 * u64::from(columns) * u64::from(rows);
-    match *generator {
-        Generator::Sphere { segments, rings, .. } => grid(segments, rings),
-        Generator::Icosphere { subdivisions, .. } => 20 << (2 * subdivisions),
-        Generator::Cuboid { divisions: [x, y, z], .. } => 2 * (grid(x, y) + grid(y, z) + grid(z, x)),
-        Generator::Plane { divisions: [x, z], .. } => grid(x, z),
-        Generator::Cylinder { segments, stacks, .. } | Generator::Cone { segments, stacks, .. } => {
-            grid(segments, stacks) + 2 * u64::from(segments)
-        }
-        Generator::Torus { segments, sides, .. } => grid(segments, sides),
     }
 }

@@ -2,13 +2,10 @@
 
 use glam::{DVec2, Vec2, Vec3};
 
-use super::{MAX_DIVISIONS, on_circle};
-use crate::{Attribute, TriangleMesh};
-
-/// A cylinder around the y axis from −height/2 to height/2; see [`cone`] for the rest.
-pub fn cylinder(radius: f32, height: f32, segments: u32, stacks: u32, capped: bool) -> TriangleMesh {
-    cone(radius, radius, height, segments, stacks, capped)
-}
+use super::MAX_DIVISIONS;
+use super::circle::on_circle;
+use crate::PolygonMesh;
+use crate::polygon_mesh::CornerAttribute;
 
 /// A cone or truncated cone around the y axis from −height/2 to height/2, in `segments` pieces around (at least 3) and
 /// `stacks` along the axis.
@@ -16,16 +13,16 @@ pub fn cylinder(radius: f32, height: f32, segments: u32, stacks: u32, capped: bo
 /// The side is smooth, the rims are hard. With `capped` every end that is not a point gets a disc, and the mesh is
 /// closed. u runs around from +x over −z, v upward; each disc carries the inscribed circle of the uv square.
 /// With both radii zero there is no surface, and the mesh is empty.
-pub fn cone(
+pub(super) fn cone(
     bottom_radius: f32,
     top_radius: f32,
     height: f32,
     segments: u32,
     stacks: u32,
     capped: bool,
-) -> TriangleMesh {
+) -> PolygonMesh {
     if bottom_radius == 0.0 && top_radius == 0.0 {
-        return TriangleMesh::default();
+        return PolygonMesh::default();
     }
     let (segments, stacks) = (segments.clamp(3, MAX_DIVISIONS), stacks.clamp(1, MAX_DIVISIONS));
     let mut cone = Cone { segments, stacks, ..Cone::default() };
@@ -35,23 +32,17 @@ pub fn cone(
         cone.close(0, bottom_radius, -height / 2.0);
         cone.close(stacks, top_radius, height / 2.0);
     }
-    TriangleMesh {
-        positions: cone.positions,
-        triangles: cone.triangles,
-        normals: cone.normals,
-        uv_sets: vec![cone.uvs],
-        ..TriangleMesh::default()
-    }
+    let Cone { mut mesh, uvs, .. } = cone;
+    mesh.uv_sets.push(uvs);
+    mesh
 }
 
 #[derive(Default)]
 struct Cone {
     segments: u32,
     stacks: u32,
-    positions: Vec<Vec3>,
-    triangles: Vec<[u32; 3]>,
-    normals: Attribute<Vec3>,
-    uvs: Attribute<Vec2>,
+    mesh: PolygonMesh,
+    uvs: CornerAttribute<Vec2>,
     /// Where each ring begins in `positions`.
     rings: Vec<u32>,
     /// Whether each ring is a single point.
@@ -69,13 +60,13 @@ impl Cone {
                 _ if stack == self.stacks => top_radius,
                 _ => bottom_radius + (top_radius - bottom_radius) * part,
             };
-            self.rings.push(self.positions.len() as u32);
+            self.rings.push(self.mesh.positions.len() as u32);
             self.points.push(radius == 0.0);
             if radius == 0.0 {
-                self.positions.push(Vec3::new(0.0, y, 0.0));
+                self.mesh.positions.push(Vec3::new(0.0, y, 0.0));
             } else {
                 let circle = (0..self.segments).map(|s| on_circle(s, self.segments) * f64::from(radius));
-                self.positions.extend(circle.map(|p| Vec3::new(p.x as f32, y, -p.y as f32)));
+                self.mesh.positions.extend(circle.map(|p| Vec3::new(p.x as f32, y, -p.y as f32)));
             }
         }
     }
@@ -91,7 +82,7 @@ impl Cone {
             |turn: DVec2| Vec3::new((turn.x * slope.x) as f32, slope.y as f32, (-turn.y * slope.x) as f32);
         // One normal on each line from end to end, and one between two lines for the triangles at a point.
         let half_steps = 2 * self.segments;
-        self.normals.values.extend((0..half_steps).map(|s| normal(on_circle(s, half_steps))));
+        self.mesh.normals.values.extend((0..half_steps).map(|s| normal(on_circle(s, half_steps))));
         for stack in 0..=self.stacks {
             let v = stack as f32 / self.stacks as f32;
             let shift = if self.points[stack as usize] { 0.5 } else { 0.0 };
@@ -110,20 +101,19 @@ impl Cone {
         let [lower_point, upper_point] = [stack, stack + 1].map(|s| self.points[s as usize]);
         // At a point the cell is the triangle that keeps the other side, and the corner there is that of the
         // cell's own segment.
-        let chosen: &[[usize; 3]] = match (lower_point, upper_point) {
-            (true, _) => &[[0, 2, 3]],
-            (_, true) => &[[0, 1, 3]],
-            _ => &[[0, 1, 2], [0, 2, 3]],
+        let kept: &[usize] = match (lower_point, upper_point) {
+            (true, _) => &[0, 2, 3],
+            (_, true) => &[0, 1, 3],
+            _ => &[0, 1, 2, 3],
         };
-        for corners in chosen {
-            self.triangles.push(corners.map(|k| self.at(cell[k].0, cell[k].1)));
-            self.uvs.triangles.push(corners.map(|k| cell[k].0 * (self.segments + 1) + cell[k].1));
-            self.normals.triangles.push(corners.map(|k| {
-                let (stack, segment) = cell[k];
-                let between = u32::from(self.points[stack as usize]);
-                (2 * segment + between) % (2 * self.segments)
-            }));
+        for &k in kept {
+            let (stack, segment) = cell[k];
+            self.mesh.corners.push(self.at(stack, segment));
+            self.uvs.corners.push(stack * (self.segments + 1) + segment);
+            let between = u32::from(self.points[stack as usize]);
+            self.mesh.normals.corners.push((2 * segment + between) % (2 * self.segments));
         }
+        self.mesh.face_ends.push(self.mesh.corners.len() as u32);
     }
 
     /// Puts a disc on the ring `stack` at height `y`.
@@ -132,10 +122,10 @@ impl Cone {
             return;
         }
         let faces_up = stack > 0;
-        let center = self.positions.len() as u32;
-        self.positions.push(Vec3::new(0.0, y, 0.0));
-        let normal = self.normals.values.len() as u32;
-        self.normals.values.push(if faces_up { Vec3::Y } else { Vec3::NEG_Y });
+        let center = self.mesh.positions.len() as u32;
+        self.mesh.positions.push(Vec3::new(0.0, y, 0.0));
+        let normal = self.mesh.normals.values.len() as u32;
+        self.mesh.normals.values.push(if faces_up { Vec3::Y } else { Vec3::NEG_Y });
         let middle = self.uvs.values.len() as u32;
         self.uvs.values.push(Vec2::splat(0.5));
         for segment in 0..self.segments {
@@ -147,9 +137,9 @@ impl Cone {
         for segment in 0..self.segments {
             let next = (segment + 1) % self.segments;
             let (from, to) = if faces_up { (segment, next) } else { (next, segment) };
-            self.triangles.push([center, self.at(stack, from), self.at(stack, to)]);
-            self.uvs.triangles.push([middle, middle + 1 + from, middle + 1 + to]);
-            self.normals.triangles.push([normal; 3]);
+            self.mesh.add_face(&[center, self.at(stack, from), self.at(stack, to)]);
+            self.uvs.corners.extend([middle, middle + 1 + from, middle + 1 + to]);
+            self.mesh.normals.corners.extend([normal; 3]);
         }
     }
 }

@@ -2,18 +2,19 @@
 
 use glam::{UVec3, Vec2, Vec3};
 
-use super::{MAX_DIVISIONS, quad};
-use crate::{Attribute, TriangleMesh};
+use super::MAX_DIVISIONS;
+use crate::PolygonMesh;
+use crate::polygon_mesh::CornerAttribute;
 
 /// A box with sides of `size` around the origin, each side in so many `divisions`.
 ///
 /// Every face carries the whole uv square, upright for one who looks at it from outside (the top with −z up, the
 /// bottom with +z up).
-pub fn cuboid(size: Vec3, divisions: [u32; 3]) -> TriangleMesh {
+pub(super) fn cuboid(size: Vec3, divisions: [u32; 3]) -> PolygonMesh {
     let counts = UVec3::from(divisions.map(|n| n.clamp(1, MAX_DIVISIONS)));
     let mut lattice = Lattice { counts, numbers: Default::default(), positions: Vec::new(), size };
-    let mut mesh = TriangleMesh::default();
-    let (mut normals, mut uvs) = (Attribute::default(), Attribute::default());
+    let mut mesh = PolygonMesh::default();
+    let (mut normals, mut uvs) = (CornerAttribute::default(), CornerAttribute::default());
     for (side, face) in FACES.iter().enumerate() {
         let (columns, rows) = (counts[face.right], counts[face.up]);
         let first_uv = uvs.values.len() as u32;
@@ -26,9 +27,9 @@ pub fn cuboid(size: Vec3, divisions: [u32; 3]) -> TriangleMesh {
         for row in 0..rows {
             for column in 0..columns {
                 let corners = [(column, row), (column + 1, row), (column + 1, row + 1), (column, row + 1)];
-                mesh.triangles.extend(quad(corners.map(|(c, r)| lattice.number(face, c, r))));
-                uvs.triangles.extend(quad(corners.map(|(c, r)| uv_at(c, r))));
-                normals.triangles.extend([[side as u32; 3]; 2]);
+                mesh.add_face(&corners.map(|(c, r)| lattice.number(face, c, r)));
+                uvs.corners.extend(corners.map(|(c, r)| uv_at(c, r)));
+                normals.corners.extend([side as u32; 4]);
             }
         }
         normals.values.push(face.normal());

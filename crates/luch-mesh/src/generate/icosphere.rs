@@ -4,8 +4,9 @@ use std::collections::HashMap;
 
 use glam::{DVec3, Vec2};
 
-use super::on_circle;
-use crate::{Attribute, TriangleMesh};
+use super::circle::on_circle;
+use crate::PolygonMesh;
+use crate::polygon_mesh::CornerAttribute;
 
 /// The most often an [`icosphere`] is subdivided: 20 · 4⁹ ≈ 5 million triangles.
 pub const MAX_SUBDIVISIONS: u32 = 9;
@@ -14,7 +15,7 @@ pub const MAX_SUBDIVISIONS: u32 = 9;
 /// into four `subdivisions` times (at most [`MAX_SUBDIVISIONS`]) and pushed out to the sphere.
 ///
 /// u is the longitude from +x over −z (past 1 where a triangle crosses the seam), v the latitude from pole to pole.
-pub fn icosphere(radius: f32, subdivisions: u32) -> TriangleMesh {
+pub(super) fn icosphere(radius: f32, subdivisions: u32) -> PolygonMesh {
     let (mut points, mut triangles) = icosahedron();
     for _ in 0..subdivisions.min(MAX_SUBDIVISIONS) {
         let mut middles: HashMap<[u32; 2], u32> = HashMap::new();
@@ -31,16 +32,17 @@ pub fn icosphere(radius: f32, subdivisions: u32) -> TriangleMesh {
         }
         triangles = finer;
     }
-    TriangleMesh {
+    PolygonMesh {
         positions: points.iter().map(|p| (*p * f64::from(radius)).as_vec3()).collect(),
-        normals: Attribute::per_position(points.iter().map(|p| p.as_vec3()).collect()),
+        normals: CornerAttribute::per_position(points.iter().map(|p| p.as_vec3()).collect()),
         uv_sets: vec![longitude_latitude(&points, &triangles)],
-        triangles,
-        ..TriangleMesh::default()
+        face_ends: (1..=triangles.len() as u32).map(|t| 3 * t).collect(),
+        corners: triangles.into_flattened(),
+        ..PolygonMesh::default()
     }
 }
 
-fn icosahedron() -> (Vec<DVec3>, Vec<[u32; 3]>) {
+pub(super) fn icosahedron() -> (Vec<DVec3>, Vec<[u32; 3]>) {
     // Two rings of five at latitudes ± arctan ½, the upper one turned by half a step.
     let (height, radius) = (1.0 / 5f64.sqrt(), 2.0 / 5f64.sqrt());
     let mut points = vec![DVec3::NEG_Y];
@@ -65,7 +67,7 @@ fn icosahedron() -> (Vec<DVec3>, Vec<[u32; 3]>) {
     (points, triangles)
 }
 
-fn longitude_latitude(points: &[DVec3], triangles: &[[u32; 3]]) -> Attribute<Vec2> {
+fn longitude_latitude(points: &[DVec3], triangles: &[[u32; 3]]) -> CornerAttribute<Vec2> {
     use std::f64::consts::{PI, TAU};
     let flat: Vec<[f64; 2]> = points
         .iter()
@@ -76,7 +78,7 @@ fn longitude_latitude(points: &[DVec3], triangles: &[[u32; 3]]) -> Attribute<Vec
         })
         .collect();
     let is_pole = |corner: u32| points[corner as usize].x == 0.0 && points[corner as usize].z == 0.0;
-    let mut uvs = Attribute::default();
+    let mut uvs = CornerAttribute::default();
     let mut numbers: HashMap<(u32, u64), u32> = HashMap::new();
     for corners in triangles {
         // Across the seam the small longitudes count on past one.
@@ -93,7 +95,7 @@ fn longitude_latitude(points: &[DVec3], triangles: &[[u32; 3]]) -> Attribute<Vec
         // A pole has no longitude: it takes the middle of the other two.
         let sum_of_others: f64 =
             corners.iter().zip(unwrapped).filter(|(c, _)| !is_pole(**c)).map(|(_, u)| u).sum();
-        uvs.triangles.push(std::array::from_fn(|k| {
+        uvs.corners.extend(std::array::from_fn::<u32, 3, _>(|k| {
             let u = if is_pole(corners[k]) { sum_of_others / 2.0 } else { unwrapped[k] };
             *numbers.entry((corners[k], u.to_bits())).or_insert_with(|| {
                 uvs.values.push(Vec2::new(u as f32, flat[corners[k] as usize][1] as f32));

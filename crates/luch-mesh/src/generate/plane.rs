@@ -2,13 +2,14 @@
 
 use glam::{Vec2, Vec3};
 
-use super::{MAX_DIVISIONS, quad};
-use crate::{Attribute, TriangleMesh};
+use super::MAX_DIVISIONS;
+use crate::PolygonMesh;
+use crate::polygon_mesh::CornerAttribute;
 
 /// A rectangle of `size` along x and z around the origin, facing +Y, in `divisions` pieces along x and z.
 ///
 /// u runs along +x, v along −z: seen from above with −z up, the picture lies upright.
-pub fn plane(size: Vec2, divisions: [u32; 2]) -> TriangleMesh {
+pub(super) fn plane(size: Vec2, divisions: [u32; 2]) -> PolygonMesh {
     let [columns, rows] = divisions.map(|n| n.clamp(1, MAX_DIVISIONS));
     let mut uvs = Vec::new();
     for row in 0..=rows {
@@ -16,18 +17,14 @@ pub fn plane(size: Vec2, divisions: [u32; 2]) -> TriangleMesh {
     }
     let place = |uv: &Vec2| Vec3::new((uv.x - 0.5) * size.x, 0.0, (0.5 - uv.y) * size.y);
     let at = |column: u32, row: u32| row * (columns + 1) + column;
-    let mut triangles = Vec::new();
+    let mut mesh = PolygonMesh { positions: uvs.iter().map(place).collect(), ..PolygonMesh::default() };
     for row in 0..rows {
         for column in 0..columns {
             let lower = [at(column, row), at(column + 1, row)];
-            triangles.extend(quad([lower[0], lower[1], at(column + 1, row + 1), at(column, row + 1)]));
+            mesh.add_face(&[lower[0], lower[1], at(column + 1, row + 1), at(column, row + 1)]);
         }
     }
-    TriangleMesh {
-        positions: uvs.iter().map(place).collect(),
-        normals: Attribute::indexed(vec![Vec3::Y], vec![[0; 3]; triangles.len()]),
-        uv_sets: vec![Attribute::per_position(uvs)],
-        triangles,
-        ..TriangleMesh::default()
-    }
+    mesh.normals = CornerAttribute::indexed(vec![Vec3::Y], vec![0; mesh.corners.len()]);
+    mesh.uv_sets.push(CornerAttribute::per_position(uvs));
+    mesh
 }

@@ -2,14 +2,16 @@
 
 use glam::{Vec2, Vec3};
 
-use super::{MAX_DIVISIONS, on_circle, quad};
-use crate::{Attribute, TriangleMesh};
+use super::MAX_DIVISIONS;
+use super::circle::on_circle;
+use crate::PolygonMesh;
+use crate::polygon_mesh::CornerAttribute;
 
 /// A sphere of `radius` around the origin, `segments` pieces around the y axis (at least 3) and `rings` from pole to
 /// pole (at least 2).
 ///
 /// u runs around from +x over −z, v from the south pole to the north pole.
-pub fn sphere(radius: f32, segments: u32, rings: u32) -> TriangleMesh {
+pub(super) fn sphere(radius: f32, segments: u32, rings: u32) -> PolygonMesh {
     let (segments, rings) = (segments.clamp(3, MAX_DIVISIONS), rings.clamp(2, MAX_DIVISIONS));
     // South pole, the rings between, north pole.
     let mut normals = vec![Vec3::NEG_Y];
@@ -36,30 +38,23 @@ pub fn sphere(radius: f32, segments: u32, rings: u32) -> TriangleMesh {
     }
     let uv_at = |ring: u32, segment: u32| ring * (segments + 1) + segment;
 
-    let (mut triangles, mut uv_triangles) = (Vec::new(), Vec::new());
+    let (mut mesh, mut uv_corners) = (PolygonMesh::default(), Vec::new());
     for ring in 0..rings {
         for segment in 0..segments {
-            let next = segment + 1;
-            let cell = [(ring, segment), (ring, next), (ring + 1, next), (ring + 1, segment)];
-            let mut corners = quad(cell.map(|(r, s)| at(r, s))).to_vec();
-            let mut corner_uvs = quad(cell.map(|(r, s)| uv_at(r, s))).to_vec();
+            let cell = [(ring, segment), (ring, segment + 1), (ring + 1, segment + 1), (ring + 1, segment)];
             // Next to a pole a cell is one triangle.
-            if ring == 0 {
-                corners = vec![[at(0, 0), at(1, next), at(1, segment)]];
-                corner_uvs = vec![[uv_at(0, segment), uv_at(1, next), uv_at(1, segment)]];
-            } else if ring + 1 == rings {
-                corners = vec![[at(ring, segment), at(ring, next), north]];
-                corner_uvs = vec![[uv_at(ring, segment), uv_at(ring, next), uv_at(rings, segment)]];
-            }
-            triangles.append(&mut corners);
-            uv_triangles.append(&mut corner_uvs);
+            let kept: &[usize] = match ring {
+                0 => &[0, 2, 3],
+                _ if ring + 1 == rings => &[0, 1, 3],
+                _ => &[0, 1, 2, 3],
+            };
+            mesh.corners.extend(kept.iter().map(|&k| at(cell[k].0, cell[k].1)));
+            mesh.face_ends.push(mesh.corners.len() as u32);
+            uv_corners.extend(kept.iter().map(|&k| uv_at(cell[k].0, cell[k].1)));
         }
     }
-    TriangleMesh {
-        positions: normals.iter().map(|n| *n * radius).collect(),
-        normals: Attribute::per_position(normals),
-        uv_sets: vec![Attribute::indexed(uvs, uv_triangles)],
-        triangles,
-        ..TriangleMesh::default()
-    }
+    mesh.positions = normals.iter().map(|n| *n * radius).collect();
+    mesh.normals = CornerAttribute::per_position(normals);
+    mesh.uv_sets.push(CornerAttribute::indexed(uvs, uv_corners));
+    mesh
 }

@@ -2,17 +2,19 @@
 
 use glam::{Vec2, Vec3};
 
-use super::{MAX_DIVISIONS, on_circle, quad};
-use crate::{Attribute, TriangleMesh};
+use super::MAX_DIVISIONS;
+use super::circle::on_circle;
+use crate::PolygonMesh;
+use crate::polygon_mesh::CornerAttribute;
 
 /// A ring around the y axis: a tube of `minor_radius` about a circle of `major_radius`, in `segments` pieces around the
 /// axis and `sides` around the tube (both at least 3).
 ///
 /// u runs around the axis from +x over −z, v around the tube from its inner side over its lower.
-pub fn torus(major_radius: f32, minor_radius: f32, segments: u32, sides: u32) -> TriangleMesh {
+pub(super) fn torus(major_radius: f32, minor_radius: f32, segments: u32, sides: u32) -> PolygonMesh {
     let (segments, sides) = (segments.clamp(3, MAX_DIVISIONS), sides.clamp(3, MAX_DIVISIONS));
-    let mut mesh = TriangleMesh::default();
-    let (mut normals, mut uvs, mut uv_triangles) = (Vec::new(), Vec::new(), Vec::new());
+    let mut mesh = PolygonMesh::default();
+    let (mut normals, mut uvs, mut uv_corners) = (Vec::new(), Vec::new(), Vec::new());
     for segment in 0..segments {
         let around = on_circle(segment, segments);
         for side in 0..sides {
@@ -35,11 +37,11 @@ pub fn torus(major_radius: f32, minor_radius: f32, segments: u32, sides: u32) ->
     for segment in 0..segments {
         for side in 0..sides {
             let cell = [(segment, side), (segment + 1, side), (segment + 1, side + 1), (segment, side + 1)];
-            mesh.triangles.extend(quad(cell.map(|(a, b)| at(a, b))));
-            uv_triangles.extend(quad(cell.map(|(a, b)| uv_at(a, b))));
+            mesh.add_face(&cell.map(|(a, b)| at(a, b)));
+            uv_corners.extend(cell.map(|(a, b)| uv_at(a, b)));
         }
     }
-    mesh.normals = Attribute::per_position(normals);
-    mesh.uv_sets.push(Attribute::indexed(uvs, uv_triangles));
+    mesh.normals = CornerAttribute::per_position(normals);
+    mesh.uv_sets.push(CornerAttribute::indexed(uvs, uv_corners));
     mesh
 }
