@@ -24,6 +24,9 @@ use std::sync::Arc;
 /// let tape = Tape::new(&both, &["x", "y"]).unwrap();
 /// assert_eq!(tape.value(&[3.0, 0.5]), -0.5);
 /// ```
+///
+/// Two expressions are equal if they are the same steps in the same order: equal ones have equal values, and so may unequal
+/// ones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
     /// Each after its operands; the last is the value.

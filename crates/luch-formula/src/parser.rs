@@ -12,6 +12,7 @@ use crate::expression::Expression;
 use crate::graph::{Graph, Id};
 use crate::operation::{Binary, Unary};
 use crate::token::{Piece, Token, is_name, tokens};
+use std::cmp::Reverse;
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -423,8 +424,10 @@ fn closest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<
         let same = candidate.eq_ignore_ascii_case(&short);
         (if same { 0 } else { strsim::damerau_levenshtein(&short, candidate) }, candidate)
     });
+    // Of two at the same distance, the one that begins alike: `sinn` is `sin` and not `sign`.
+    let alike = |candidate: &str| short.chars().zip(candidate.chars()).take_while(|(a, b)| a == b).count();
     ranked
         .filter(|(distance, _)| *distance <= most)
-        .min_by_key(|(distance, _)| *distance)
+        .min_by_key(|(distance, candidate)| (*distance, Reverse(alike(candidate))))
         .map(|(_, best)| best.to_owned())
 }

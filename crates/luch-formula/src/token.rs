@@ -139,9 +139,12 @@ fn number_length(text: &str) -> usize {
     mantissa
 }
 
-/// The length of the name at the start of a text: letters, digits and underscores.
+/// The length of the name at the start of a text: letters, digits 0 to 9 and underscores.
 fn name_length(text: &str) -> usize {
-    text.find(|character: char| !(character.is_alphanumeric() || character == '_')).unwrap_or(text.len())
+    text.find(|character: char| {
+        !(character.is_alphabetic() || character.is_ascii_digit() || character == '_')
+    })
+    .unwrap_or(text.len())
 }
 
 /// Whether a text is a name from end to end.

@@ -1,0 +1,11 @@
+//! What the crate promises.
+
+mod derivatives;
+mod errors;
+mod expressions;
+mod language;
+mod noise;
+mod ranges;
+mod roots;
+mod samples;
+mod values;
