@@ -57,6 +57,7 @@ mod triangle_mesh;
 pub mod unify;
 mod validate;
 pub mod weld;
+mod words;
 pub mod workshop;
 
 pub use barycentric::Barycentric;

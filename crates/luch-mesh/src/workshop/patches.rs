@@ -1,6 +1,146 @@
 //! Patches of splines.
 
-use super::Verb;
+use glam::DVec3;
+
+use super::{Action, Arguments, Kind, Parameter, Verb, WorkshopError};
+use crate::PolygonMesh;
+use crate::patch::{ControlPoint, Fineness, PatchError, PatchModel, Surface, bpt, car, shapes};
+
+const TOLERANCE: Parameter = Parameter::optional(
+    "tolerance",
+    Kind::POSITIVE,
+    "how far triangles may be from the surface, in metres; a thousandth of the size if neither this nor divisions is given",
+);
+const DIVISIONS: Parameter = Parameter::optional(
+    "divisions",
+    Kind::Count { least: 1, most: 4096 },
+    "pieces along both directions of each Bezier patch, in place of a tolerance",
+);
+const RADIUS: Parameter = Parameter::new("radius", Kind::POSITIVE, "1", "radius in metres");
 
 /// The verbs of this group.
-pub(super) const VERBS: &[Verb] = &[];
+pub(super) const VERBS: &[Verb] = &[
+    Verb {
+        name: "patches",
+        summary: "Bezier patches from a .bpt file as triangles without cracks",
+        parameters: &[Parameter::required("file", Kind::File, "the .bpt file"), TOLERANCE, DIVISIONS],
+        example: "car-body.bpt --tolerance 0.01",
+        action: Action::Make { closed: true, run: patches },
+    },
+    Verb {
+        name: "bezier-patch",
+        summary: "One Bezier patch from its points",
+        parameters: &[
+            Parameter::required("points", Kind::Numbers, "x,y,z of all points, row by row along u"),
+            Parameter::new("columns", Kind::Count { least: 2, most: 26 }, "4", "points in a row"),
+            TOLERANCE,
+            DIVISIONS,
+        ],
+        example: "--points 0,0,0,1,1,0,2,0,0,0,0,-1,1,0,-1,2,1,-1 --columns 3 --tolerance 0.05",
+        action: Action::Make { closed: false, run: bezier_patch },
+    },
+    Verb {
+        name: "car-body",
+        summary: "The body of a car with wheels, about four metres long, from smoothly joined patches",
+        parameters: &[TOLERANCE, DIVISIONS],
+        example: "--divisions 1",
+        action: Action::Make { closed: true, run: car_body },
+    },
+    Verb {
+        name: "nurbs-sphere",
+        summary: "An exact sphere as a rational surface, in triangles by tolerance",
+        parameters: &[RADIUS, TOLERANCE, DIVISIONS],
+        example: "--radius 1 --tolerance 0.05",
+        action: Action::Make { closed: true, run: sphere },
+    },
+    Verb {
+        name: "nurbs-torus",
+        summary: "An exact torus as a rational surface, in triangles by tolerance",
+        parameters: &[
+            Parameter::new(
+                "major",
+                Kind::POSITIVE,
+                "1",
+                "from the centre to the middle of the tube, in metres",
+            ),
+            Parameter::new("minor", Kind::POSITIVE, "0.25", "radius of the tube, in metres"),
+            TOLERANCE,
+            DIVISIONS,
+        ],
+        example: "--tolerance 0.05",
+        action: Action::Make { closed: true, run: torus },
+    },
+    Verb {
+        name: "nurbs-cylinder",
+        summary: "An exact closed cylinder as three rational surfaces, in triangles by tolerance",
+        parameters: &[
+            RADIUS,
+            Parameter::new("height", Kind::POSITIVE, "2", "length along y, in metres"),
+            TOLERANCE,
+            DIVISIONS,
+        ],
+        example: "--tolerance 0.05",
+        action: Action::Make { closed: true, run: cylinder },
+    },
+];
+
+fn patches(arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
+    let model = bpt::decode(arguments.file("file").unwrap_or_default())
+        .map_err(|error| WorkshopError::of("file", error.to_string()))?;
+    triangles(&model, arguments)
+}
+
+fn bezier_patch(arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
+    let numbers = arguments.numbers("points");
+    let columns = arguments.count("columns") as usize;
+    if numbers.len() % (3 * columns) != 0 || numbers.len() < 6 * columns {
+        let message = format!(
+            "there are {} numbers, expected three for each of at least two rows of {columns} points",
+            numbers.len()
+        );
+        return Err(WorkshopError::of("points", message));
+    }
+    let points: Vec<_> = numbers.chunks(3).map(|p| ControlPoint::new(DVec3::new(p[0], p[1], p[2]))).collect();
+    let degrees = [columns - 1, points.len() / columns - 1];
+    let surface =
+        Surface::bezier(degrees, &points).map_err(|error| WorkshopError::of("points", error.to_string()))?;
+    triangles(&surface.into(), arguments)
+}
+
+fn car_body(arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
+    triangles(&car::car_body().map_err(refused)?, arguments)
+}
+
+fn sphere(arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
+    triangles(&shapes::sphere(arguments.number("radius")).map_err(refused)?.into(), arguments)
+}
+
+fn torus(arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
+    let surface = shapes::torus(arguments.number("major"), arguments.number("minor")).map_err(refused)?;
+    triangles(&surface.into(), arguments)
+}
+
+fn cylinder(arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
+    let model = shapes::cylinder(arguments.number("radius"), arguments.number("height")).map_err(refused)?;
+    triangles(&model, arguments)
+}
+
+fn refused(error: PatchError) -> WorkshopError {
+    WorkshopError::new(error.to_string())
+}
+
+/// The model in triangles, as finely as is asked for.
+fn triangles(model: &PatchModel, arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
+    let tolerance = arguments.number_if_given("tolerance");
+    let divisions = arguments.count_if_given("divisions");
+    let fineness = match (tolerance, divisions) {
+        (Some(_), Some(_)) => {
+            return Err(WorkshopError::of("divisions", "cannot be given beside a tolerance"));
+        }
+        (Some(tolerance), None) => Fineness::Tolerance(tolerance),
+        (None, Some(divisions)) => Fineness::Divisions(divisions as u32),
+        // Points in one place ask for nothing.
+        (None, None) => Fineness::Tolerance((model.extent() / 1000.0).max(f64::MIN_POSITIVE)),
+    };
+    model.tessellate(fineness).map(|mesh| PolygonMesh::from(&mesh)).map_err(refused)
+}
