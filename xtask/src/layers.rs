@@ -23,8 +23,8 @@ const ADDRESSES: [(&str, &[&str]); 10] = [
     ("image", &["luch-image"]),
     ("earcut", &["luch-mesh"]),
     ("tempfile", &["luch-formats"]),
-    ("flate2", &["luch-formats"]),
-    ("roxmltree", &["luch-formats"]),
+    ("flate2", &["luch-formats", "luch-mesh"]),
+    ("roxmltree", &["luch-formats", "luch-mesh"]),
 ];
 
 /// Fails if any crate depends upward or sideways, or uses a library outside its address.

@@ -59,7 +59,8 @@ pub(crate) fn read(
     let bytes = files.read(path)?;
     let by_name = path.extension().and_then(|e| e.to_str()).and_then(Format::from_extension);
     let unknown = || {
-        Problem::new(path, "is no mesh file").help("accepted are .obj, .ply, .stl; whole scenes are imported")
+        Problem::new(path, "is no mesh file")
+            .help("accepted are .obj, .ply, .stl, .off, .3mf; whole scenes are imported")
     };
     let format = by_name.or_else(|| Format::from_magic(&bytes)).ok_or_else(unknown)?;
     let mesh = decode(path, &bytes, format, warnings)?;

@@ -22,11 +22,16 @@ pub enum SceneFormat {
     Ply,
     /// A stereolithography mesh.
     Stl,
+    /// A mesh in Geomview's object file format.
+    Off,
+    /// A mesh in the 3D Manufacturing Format.
+    ThreeMf,
 }
 
 impl SceneFormat {
     /// All formats.
-    pub const ALL: [Self; 6] = [Self::Kdl, Self::Gltf, Self::Mitsuba, Self::Obj, Self::Ply, Self::Stl];
+    pub const ALL: [Self; 8] =
+        [Self::Kdl, Self::Gltf, Self::Mitsuba, Self::Obj, Self::Ply, Self::Stl, Self::Off, Self::ThreeMf];
 
     /// File extensions in lower case, without the dot.
     pub const fn extensions(self) -> &'static [&'static str] {
@@ -37,6 +42,8 @@ impl SceneFormat {
             Self::Obj => &["obj"],
             Self::Ply => &["ply"],
             Self::Stl => &["stl"],
+            Self::Off => &["off"],
+            Self::ThreeMf => &["3mf"],
         }
     }
 
@@ -62,6 +69,9 @@ impl SceneFormat {
             Some(MeshFormat::Ply) => Some(Self::Ply),
             Some(MeshFormat::Stl) => Some(Self::Stl),
             Some(MeshFormat::Obj) => Some(Self::Obj),
+            Some(MeshFormat::Off) => Some(Self::Off),
+            Some(MeshFormat::ThreeMf) => Some(Self::ThreeMf),
+            Some(MeshFormat::Glb | MeshFormat::Gltf) => Some(Self::Gltf),
             None => has_version_line(start).then_some(Self::Kdl),
         }
     }
@@ -108,5 +118,7 @@ pub(crate) fn read(path: &Path, files: &Files, imports: &mut Imports) -> Result<
         SceneFormat::Obj => obj_scene::load(path, files, imports.pictures()),
         SceneFormat::Ply => bare_mesh::load(path, files, MeshFormat::Ply),
         SceneFormat::Stl => bare_mesh::load(path, files, MeshFormat::Stl),
+        SceneFormat::Off => bare_mesh::load(path, files, MeshFormat::Off),
+        SceneFormat::ThreeMf => bare_mesh::load(path, files, MeshFormat::ThreeMf),
     }
 }

@@ -43,6 +43,7 @@ mod images;
 mod kdl;
 mod material_values;
 mod merge;
+mod mesh_file;
 mod mitsuba;
 mod obj_scene;
 pub mod ray_files;
@@ -55,6 +56,7 @@ pub use error::{LoadError, Place, Problem, Warning};
 pub use files::Files;
 pub use format::SceneFormat;
 pub use framing::{bounding_sphere, framing_camera};
+pub use mesh_file::{MeshFile, decode_mesh, read_mesh, write_mesh};
 pub use sky::neutral_sky;
 pub use write::{SaveError, replaced_file, save_image, save_mesh, write_atomically};
 

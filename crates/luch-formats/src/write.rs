@@ -3,8 +3,8 @@
 use luch_image::codec::{self as image_codec, EncodeError, Layer, Layers, Metadata};
 use luch_image::tone::Tone;
 use luch_image::{Image, Rgb};
-use luch_mesh::TriangleMesh;
 use luch_mesh::codec as mesh_codec;
+use luch_mesh::{PolygonMesh, TriangleMesh};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -34,6 +34,24 @@ pub enum SaveError {
         path: PathBuf,
         /// What it is.
         what: &'static str,
+    },
+    /// The extension is none of a mesh format.
+    #[error("{}: cannot tell the mesh format from the extension{advice}; accepted are {accepted}", path.display())]
+    MeshExtension {
+        /// The file.
+        path: PathBuf,
+        /// The extension that was perhaps meant, as `; did you mean .obj?`, or nothing.
+        advice: String,
+        /// Extensions that can be written.
+        accepted: String,
+    },
+    /// The mesh cannot be written.
+    #[error("{}: {source}", path.display())]
+    Mesh {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        source: luch_mesh::codec::EncodeError,
     },
     /// The picture does not fit the format.
     #[error("{}: {source}", path.display())]
@@ -152,19 +170,18 @@ pub fn save_image(
     write_atomically(path, &bytes)
 }
 
-/// Writes a mesh in the format of the extension: `.obj`, `.ply` (binary) or `.stl` (binary, positions alone).
+/// Writes a mesh in the format of the extension: `.obj`, `.ply`, `.stl`, `.off`, `.3mf`, `.glb` or `.gltf`; see [`crate::write_mesh`]. Of
+/// these only glTF keeps tangents.
 ///
 /// # Errors
-/// If the extension is another or the disk refuses.
+/// If the extension is another, the mesh is broken or the disk refuses.
 pub fn save_mesh(path: &Path, mesh: &TriangleMesh) -> Result<(), SaveError> {
-    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("");
-    let Some(format) = mesh_codec::Format::from_extension(extension) else {
-        return Err(SaveError::Extension { path: path.to_owned(), accepted: ".obj, .ply, .stl" });
+    use mesh_codec::{Format, gltf};
+    let broken = |source| SaveError::Mesh { path: path.to_owned(), source };
+    let bytes = match crate::mesh_file::format_to_write(path)? {
+        Format::Glb => gltf::encode_binary(mesh, &Default::default()),
+        Format::Gltf => gltf::encode_text(mesh, &Default::default()).map(String::into_bytes),
+        format => mesh_codec::encode_polygons(&PolygonMesh::from(mesh), format, &Default::default()),
     };
-    let bytes = match format {
-        mesh_codec::Format::Obj => mesh_codec::obj::encode(mesh, &Default::default()).into_bytes(),
-        mesh_codec::Format::Ply => mesh_codec::ply::encode(mesh, mesh_codec::ply::Encoding::LittleEndian),
-        mesh_codec::Format::Stl => mesh_codec::stl::encode_binary(mesh),
-    };
-    write_atomically(path, &bytes)
+    write_atomically(path, &bytes.map_err(broken)?)
 }

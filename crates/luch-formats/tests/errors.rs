@@ -165,7 +165,7 @@ fn text_that_is_no_utf8_and_unknown_files_are_refused() {
     assert_eq!(load("a.kdl", b"luch 1\nobject \xff"), "a.kdl: byte 14: is no UTF-8 text");
     assert_eq!(
         load("a.blend", b"BLENDER-v300"),
-        "a.blend: is of no format that is known here\n  help: accepted are .kdl, .gltf, .glb, .xml, .obj, .ply, .stl"
+        "a.blend: is of no format that is known here\n  help: accepted are .kdl, .gltf, .glb, .xml, .obj, .ply, .stl, .off, .3mf"
     );
     let none = load_with(Path::new("none.obj"), &Files::memory([])).unwrap_err().to_string();
     assert_eq!(none, "none.obj: no such file");

@@ -3,18 +3,28 @@
 //! Every file is taken as hostile: memory stays in proportion to the bytes given, whatever a header claims, and the
 //! answer to nonsense is a [`DecodeError`] that says where. What can be survived is a [`Warning`] beside the value.
 
+mod color;
 mod cursor;
 mod error;
+pub mod gltf;
 pub mod mtl;
 pub mod obj;
+pub mod off;
 pub mod ply;
+mod polygons;
+mod soundness;
 pub mod stl;
+mod text;
+pub mod three_mf;
 mod token;
+mod vertices;
+pub(crate) mod welding;
 
 use crate::TriangleMesh;
-pub use error::{DecodeError, ErrorKind, Place, Warning};
+pub use error::{DecodeError, EncodeError, ErrorKind, Place, Warning};
+pub use polygons::{DecodedPolygons, EncodeOptions, Form, decode_polygons, encode_polygons};
 
-/// A mesh file format this crate reads and writes.
+/// A mesh file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// Wavefront OBJ.
@@ -23,11 +33,20 @@ pub enum Format {
     Ply,
     /// Stereolithography, text or binary.
     Stl,
+    /// Geomview's object file format, text.
+    Off,
+    /// 3D Manufacturing Format.
+    ThreeMf,
+    /// glTF 2.0 in one binary file; written only.
+    Glb,
+    /// glTF 2.0 as JSON; written only.
+    Gltf,
 }
 
 impl Format {
     /// All formats.
-    pub const ALL: [Self; 3] = [Self::Obj, Self::Ply, Self::Stl];
+    pub const ALL: [Self; 7] =
+        [Self::Obj, Self::Ply, Self::Stl, Self::Off, Self::ThreeMf, Self::Glb, Self::Gltf];
 
     /// The format of a file name's extension, without the dot, in either case.
     pub fn from_extension(extension: &str) -> Option<Self> {
@@ -43,6 +62,15 @@ impl Format {
         if stl::looks_like(bytes) {
             return Some(Self::Stl);
         }
+        if three_mf::looks_like(bytes) {
+            return Some(Self::ThreeMf);
+        }
+        if bytes.starts_with(b"glTF") {
+            return Some(Self::Glb);
+        }
+        if off::looks_like(bytes) {
+            return Some(Self::Off);
+        }
         let lines = bytes.split(|&b| b == b'\n').map(<[u8]>::trim_ascii);
         let mut statements = lines.take(1000).filter(|line| !line.is_empty() && line[0] != b'#');
         let keyword = statements.next()?.split(u8::is_ascii_whitespace).next()?;
@@ -56,7 +84,16 @@ impl Format {
             Self::Obj => "obj",
             Self::Ply => "ply",
             Self::Stl => "stl",
+            Self::Off => "off",
+            Self::ThreeMf => "3mf",
+            Self::Glb => "glb",
+            Self::Gltf => "gltf",
         }
+    }
+
+    /// True if [`decode`] reads it. A glTF file is a scene: this crate writes it, `luch-formats` reads it.
+    pub fn can_be_read(self) -> bool {
+        !matches!(self, Self::Glb | Self::Gltf)
     }
 }
 
@@ -69,23 +106,17 @@ pub struct Decoded {
     pub warnings: Vec<Warning>,
 }
 
-/// Reads a mesh. For the names of groups and materials of an OBJ file use [`obj::decode`].
+/// Reads a mesh. For faces of any size and the names of materials use [`decode_polygons`].
+///
+/// # Errors
+/// If the bytes are not what the format wants, or the format is one that is only written.
 pub fn decode(bytes: &[u8], format: Format) -> Result<Decoded, DecodeError> {
-    let (polygons, mut warnings) = match format {
-        Format::Obj => {
-            let file = obj::decode(bytes)?;
-            (file.mesh, file.warnings)
-        }
-        Format::Ply => {
-            let file = ply::decode(bytes)?;
-            (file.mesh, file.warnings)
-        }
-        Format::Stl => {
-            let file = stl::decode(bytes)?;
-            return Ok(Decoded { mesh: file.mesh, warnings: file.warnings });
-        }
-    };
-    let triangulation = polygons.triangulation();
+    if format == Format::Stl {
+        let file = stl::decode(bytes)?;
+        return Ok(Decoded { mesh: file.mesh, warnings: file.warnings });
+    }
+    let DecodedPolygons { mesh, mut warnings, .. } = decode_polygons(bytes, format)?;
+    let triangulation = polygons::triangulation(mesh);
     if triangulation.dropped_faces > 0 {
         let message = format!("{} faces without area are left out", triangulation.dropped_faces);
         warnings.push(Warning { line: None, message });

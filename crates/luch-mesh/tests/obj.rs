@@ -114,7 +114,8 @@ fn smoothing_groups_make_normals() {
     let normals = |groups: [&str; 2]| {
         let text = format!("{shape}s {}\nf 1 2 3 4\ns {}\nf 5 1 4 6\n", groups[0], groups[1]);
         let mesh = decode(&text).mesh;
-        (0..8).map(|c| mesh.normals.values[mesh.normals.corners[c] as usize]).collect::<Vec<_>>()
+        let number = |c: usize| *mesh.normals.corners.get(c).unwrap_or(&mesh.corners[c]);
+        (0..8).map(|c| mesh.normals.values[number(c) as usize]).collect::<Vec<_>>()
     };
     let smooth = normals(["1", "1"]);
     let middle = Vec3::new(-1.0, 0.0, 1.0).normalize();

@@ -39,6 +39,8 @@ pub enum ErrorKind {
     IndexOutOfRange,
     /// More than can be represented.
     TooLarge,
+    /// Sound, perhaps, but of a kind that is not read here.
+    Unsupported,
 }
 
 /// Why a file could not be read.
@@ -64,6 +66,26 @@ impl DecodeError {
     ) -> Self {
         Self { kind, place, found: found.into(), expected: expected.into() }
     }
+}
+
+/// Why a mesh could not be written.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum EncodeError {
+    /// The mesh breaks a promise of its type.
+    #[error("the mesh is broken: {0}")]
+    Broken(String),
+    /// The format cannot hold so much.
+    #[error("{format} files hold at most {most} {what}, the mesh has {found}")]
+    TooLarge {
+        /// The format's name.
+        format: &'static str,
+        /// What there is too much of.
+        what: &'static str,
+        /// How many the format holds.
+        most: u64,
+        /// How many there are.
+        found: u64,
+    },
 }
 
 /// Something odd that did not stop the reader.

@@ -17,7 +17,7 @@ mod write;
 use super::error::Warning;
 use crate::PolygonMesh;
 pub use read::decode;
-pub use write::encode;
+pub use write::{encode, encode_polygons};
 
 /// How the data after the header is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

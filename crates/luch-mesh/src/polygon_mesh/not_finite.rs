@@ -2,11 +2,11 @@
 
 use glam::{Vec2, Vec3, Vec4};
 
-use super::PolygonMesh;
+use super::{CornerAttribute, Hole, PolygonMesh};
 
 impl PolygonMesh {
     /// Leaves out faces with a vertex that is not finite, replaces the rest of such values (positions and uvs by zero,
-    /// colours by white), and tells which faces were kept, or `None` if all. For meshes without holes.
+    /// colours by white), and tells which faces were kept, or `None` if all.
     pub(crate) fn drop_not_finite(&mut self) -> Option<Vec<bool>> {
         for uvs in &mut self.uv_sets {
             uvs.values.iter_mut().filter(|uv| !uv.is_finite()).for_each(|uv| *uv = Vec2::ZERO);
@@ -24,19 +24,34 @@ impl PolygonMesh {
         Some(kept)
     }
 
-    /// Keeps the faces marked so. For meshes without holes.
+    /// Keeps the faces marked so.
     fn retain_faces(&mut self, kept: &[bool]) {
         let mut is_kept_corner = vec![false; self.corners.len()];
         for (face, _) in kept.iter().enumerate().filter(|(_, kept)| **kept) {
             is_kept_corner[self.face(face)].fill(true);
         }
+        let mut kept_before = (0u32, 0u32, 0usize);
+        self.holes.retain_mut(|hole| {
+            // Faces and corners that are kept before the hole; holes stand in order.
+            let (faces, corners, face) = &mut kept_before;
+            while *face < hole.face as usize {
+                if kept.get(*face) == Some(&true) {
+                    *faces += 1;
+                    *corners += self.face_ends[*face] - face.checked_sub(1).map_or(0, |f| self.face_ends[f]);
+                }
+                *face += 1;
+            }
+            let start_of_face = face.checked_sub(1).map_or(0, |f| self.face_ends[f]);
+            let is_kept = kept.get(*face) == Some(&true);
+            *hole = Hole { face: *faces, start: hole.start - start_of_face + *corners };
+            is_kept
+        });
         let lengths: Vec<u32> = (0..self.face_count()).map(|face| self.face(face).len() as u32).collect();
-        let mut lists = vec![&mut self.corners, &mut self.normals.corners, &mut self.colors.corners];
-        lists.extend(self.uv_sets.iter_mut().map(|uvs| &mut uvs.corners));
-        for list in lists.into_iter().filter(|list| !list.is_empty()) {
-            let mut keep = is_kept_corner.iter();
-            list.retain(|_| keep.next().copied().unwrap_or(false));
-        }
+        retain_attribute(&mut self.normals, &is_kept_corner);
+        retain_attribute(&mut self.colors, &is_kept_corner);
+        self.uv_sets.iter_mut().for_each(|uvs| retain_attribute(uvs, &is_kept_corner));
+        let mut keep = is_kept_corner.iter();
+        self.corners.retain(|_| keep.next().copied().unwrap_or(false));
         let mut end = 0;
         let ends = lengths.iter().zip(kept).filter(|(_, kept)| **kept).map(|(length, _)| {
             end += length;
@@ -49,10 +64,24 @@ impl PolygonMesh {
         self.slots.retain(|_| keep.next().copied().unwrap_or(false));
     }
 
-    /// Gives every normal length one; those that have no direction become the flat normal's stand-in +Z.
+    /// Gives every normal length one; those that have no direction become the flat normal's stand-in +Z. Normals whose
+    /// length is one but for rounding stay as they are, so that files come back bit for bit.
     pub(crate) fn normalize_normals(&mut self) {
-        for normal in &mut self.normals.values {
+        // The squared length of a rounded unit vector is within a few units in the last place of one.
+        let is_unit = |normal: &Vec3| (normal.length_squared() - 1.0).abs() <= 8.0 * f32::EPSILON;
+        for normal in self.normals.values.iter_mut().filter(|normal| !is_unit(normal)) {
             *normal = normal.try_normalize().unwrap_or(Vec3::Z);
+        }
+    }
+}
+
+/// Keeps the corners marked so; values that are left without any corner go.
+fn retain_attribute<T>(attribute: &mut CornerAttribute<T>, kept: &[bool]) {
+    if !attribute.corners.is_empty() {
+        let mut keep = kept.iter();
+        attribute.corners.retain(|_| keep.next().copied().unwrap_or(false));
+        if attribute.corners.is_empty() {
+            attribute.values.clear();
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What can only be done when the whole file is known: references ahead, missing uvs and normals.
 
-use glam::{Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec4};
 
 use super::ObjFile;
 use super::read::{LISTS, NONE, Reader, Reference, close_last};
@@ -11,6 +11,7 @@ use crate::polygon_mesh::CornerAttribute;
 impl Reader {
     pub(super) fn finish(mut self) -> Result<ObjFile, DecodeError> {
         self.check_references()?;
+        self.check_tags();
         let faces = self.file.mesh.face_ends.len() as u32;
         close_last(&mut self.file.objects, faces);
         close_last(&mut self.file.groups, faces);
@@ -23,16 +24,24 @@ impl Reader {
         }
         let mesh = &mut self.file.mesh;
         let (uvs, uv_corners) = (std::mem::take(&mut self.uvs), std::mem::take(&mut self.uv_corners));
-        mesh.uv_sets = vec![CornerAttribute::indexed(uvs, uv_corners)];
+        if uv_corners.iter().any(|&corner| corner != NONE) {
+            mesh.uv_sets = vec![CornerAttribute::indexed(uvs, uv_corners)];
+        }
         let (normals, normal_corners) =
             (std::mem::take(&mut self.normals), std::mem::take(&mut self.normal_corners));
         mesh.normals = CornerAttribute::indexed(normals, normal_corners);
         if self.any_smoothing {
             mesh.smoothing_groups = std::mem::take(&mut self.groups);
         }
-        self.drop_not_finite();
         self.complete_uvs();
         self.complete_normals();
+        let mesh = &mut self.file.mesh;
+        if let Some(uvs) = mesh.uv_sets.first_mut() {
+            run_parallel(uvs, &mesh.corners, mesh.positions.len());
+        }
+        run_parallel(&mut mesh.normals, &mesh.corners, mesh.positions.len());
+        std::mem::take(&mut self.extras).finish(mesh);
+        self.drop_not_finite();
         if self.file.mesh.face_ends.is_empty() {
             self.warnings.add(None, "the file has no faces");
         }
@@ -89,9 +98,6 @@ impl Reader {
     /// Corners without uv get (0, 0); no set if none has any.
     fn complete_uvs(&mut self) {
         let Some(CornerAttribute { mut values, mut corners }) = self.file.mesh.uv_sets.pop() else { return };
-        if corners.iter().all(|&corner| corner == NONE) {
-            return;
-        }
         let missing = values.len() as u32;
         for corner in corners.iter_mut().filter(|corner| **corner == NONE) {
             *corner = missing;
@@ -113,10 +119,9 @@ impl Reader {
             self.warnings.add(None, "normals without length are computed anew");
         }
         let is_given = corners.iter().any(|&corner| corner != NONE);
-        if !is_given && !self.any_smoothing {
+        if !is_given && (!self.any_smoothing || self.extras.is_plain) {
             return;
         }
-        values.iter_mut().for_each(|n| *n = n.try_normalize().unwrap_or(Vec3::Z));
         if corners.contains(&NONE) {
             let computed = mesh.normals_of_smoothing_groups(Weight::Angle);
             if !is_given {
@@ -131,5 +136,13 @@ impl Reader {
             values.extend(computed.values);
         }
         mesh.normals = CornerAttribute::indexed(values, corners);
+        mesh.normalize_normals();
+    }
+}
+
+/// An index set that says what the positions say is no index set.
+fn run_parallel<T>(attribute: &mut CornerAttribute<T>, corners: &[u32], positions: usize) {
+    if attribute.values.len() == positions && attribute.corners == corners {
+        attribute.corners = Vec::new();
     }
 }

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use glam::{Vec2, Vec3, Vec4};
 
+use super::extra::Extras;
 use super::{NamedFaces, ObjFile};
 use crate::codec::cursor::{Line, Lines};
 use crate::codec::error::{DecodeError, ErrorKind, Place, Warnings, quote};
@@ -44,6 +45,7 @@ pub(super) struct Reader {
     pub(super) any_smoothing: bool,
     /// The furthest reference to something not yet defined when it was used: positions, uvs, normals.
     pub(super) furthest: [Option<Reference>; 3],
+    pub(super) extras: Extras,
     pub(super) warnings: Warnings,
 }
 
@@ -70,6 +72,8 @@ impl Reader {
                 self.normals.push(Vec3::from(components));
             }
             b"f" | b"fo" => self.face(line, rest)?,
+            b"t" => self.tag(line, rest),
+            b"#luch" => self.extra(line, rest)?,
             b"o" => self.name(rest, |file| &mut file.objects),
             b"g" => self.name(rest, |file| &mut file.groups),
             b"s" => self.smoothing_group(line, rest),
@@ -144,8 +148,17 @@ impl Reader {
     }
 
     fn face(&mut self, line: &Line, rest: &[u8]) -> Result<(), DecodeError> {
+        if self.extras.skips_face() {
+            return Ok(());
+        }
+        self.corners(line, rest)?;
+        self.end_face(line)?;
+        Ok(())
+    }
+
+    /// Reads corners of the face that is being made.
+    pub(super) fn corners(&mut self, line: &Line, rest: &[u8]) -> Result<(), DecodeError> {
         let mesh = &mut self.file.mesh;
-        let before = mesh.corners.len();
         let counts = [mesh.positions.len(), self.uvs.len(), self.normals.len()];
         for word in words(rest).take_while(|word| word[0] != b'#') {
             let mut indices = [NONE; 3];
@@ -169,12 +182,17 @@ impl Reader {
             self.uv_corners.push(indices[1]);
             self.normal_corners.push(indices[2]);
         }
+        Ok(())
+    }
+
+    /// Ends the face whose corners have been read; false if it has too few of them and is left out.
+    pub(super) fn end_face(&mut self, line: &Line) -> Result<bool, DecodeError> {
+        let mesh = &mut self.file.mesh;
+        let before = mesh.face_ends.last().map_or(0, |end| *end as usize);
         if mesh.corners.len() - before < 3 {
-            mesh.corners.truncate(before);
-            self.uv_corners.truncate(before);
-            self.normal_corners.truncate(before);
+            self.truncate_corners(before);
             self.warnings.add(Some(line.number), "a face with fewer than three corners is left out");
-            return Ok(());
+            return Ok(false);
         }
         if mesh.corners.len() >= u32::MAX as usize / 2 {
             return Err(too_large(line, "more than two thousand million corners"));
@@ -186,7 +204,24 @@ impl Reader {
         mesh.face_ends.push(mesh.corners.len() as u32);
         mesh.slots.push(self.slot);
         self.groups.push(self.smoothing);
-        Ok(())
+        Ok(true)
+    }
+
+    /// Takes back the corners from `count` on.
+    pub(super) fn truncate_corners(&mut self, count: usize) {
+        self.file.mesh.corners.truncate(count);
+        self.uv_corners.truncate(count);
+        self.normal_corners.truncate(count);
+    }
+
+    /// Gives a material name its slot before it is used. Slots between that have no name get the empty one.
+    pub(super) fn declare_slot(&mut self, slot: u16, name: &[u8]) {
+        let materials = &mut self.file.materials;
+        // Names in order only: a number far ahead would cost memory for nothing.
+        if usize::from(slot) == materials.len() && self.file.mesh.face_ends.is_empty() {
+            materials.push(String::from_utf8_lossy(name).into_owned());
+            self.slot_of.entry(name.to_vec()).or_insert(slot);
+        }
     }
 
     fn name(&mut self, rest: &[u8], list: fn(&mut ObjFile) -> &mut Vec<NamedFaces>) {
@@ -217,8 +252,8 @@ impl Reader {
             self.slot = slot;
             return Ok(());
         }
-        let slot =
-            u16::try_from(self.slot_of.len()).map_err(|_| too_large(line, "more than 65536 materials"))?;
+        let slot = u16::try_from(self.file.materials.len())
+            .map_err(|_| too_large(line, "more than 65536 materials"))?;
         self.slot_of.insert(name.to_vec(), slot);
         self.file.materials.push(String::from_utf8_lossy(name).into_owned());
         self.slot = slot;

@@ -2,9 +2,11 @@
 
 use glam::{Vec2, Vec3, Vec4};
 
-use super::header::{Element, Header, Property};
+use super::header::{Element, Header, Property, Scalar};
 use super::source::{Binary, Source, Text, check_count};
 use super::{Encoding, PlyFile};
+use crate::PolygonMesh;
+use crate::codec::color::srgb_to_linear;
 use crate::codec::error::{DecodeError, ErrorKind, Place, Warnings};
 use crate::polygon_mesh::CornerAttribute;
 
@@ -46,6 +48,9 @@ fn read(header: &Header, source: &mut impl Source) -> Result<PlyFile, DecodeErro
 
 /// The columns of a vertex that mean something.
 const COLUMNS: usize = 12;
+
+/// A vertex of which nothing is known.
+const OPAQUE: [f32; COLUMNS] = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0];
 
 /// Names of properties and the column they fill.
 const VERTEX_NAMES: [(&str, usize); 22] = [
@@ -118,21 +123,8 @@ impl Reader {
         let count = element.count as usize;
         self.file.mesh.positions.reserve(count);
         let (mut normals, mut uvs, mut colors) = (Vec::new(), Vec::new(), Vec::new());
-        for _ in 0..count {
-            let mut row = [0.0f32; COLUMNS];
-            row[11] = 1.0;
-            for (property, column) in element.properties.iter().zip(&columns) {
-                match column {
-                    Some(column @ 8..) => {
-                        row[*column] = color(source.float(property.scalar)?, property, *column == 11)
-                    }
-                    Some(column) => row[*column] = source.float(property.scalar)?,
-                    None => skip_property(property, source)?,
-                }
-            }
-            self.surplus += u64::from(source.end_row());
+        let mut add = |row: [f32; COLUMNS], mesh: &mut PolygonMesh| {
             let [x, y, z, nx, ny, nz, u, v, red, green, blue, alpha] = row;
-            let mesh = &mut self.file.mesh;
             mesh.positions.push(Vec3::new(x, y, z));
             if has_normals {
                 normals.push(Vec3::new(nx, ny, nz));
@@ -143,6 +135,38 @@ impl Reader {
             if has_colors {
                 colors.push(Vec4::new(red, green, blue, alpha));
             }
+        };
+        let mut left = count;
+        let is_plain = |p: &Property| p.list_length.is_none() && p.scalar == Scalar::F32;
+        if element.properties.iter().all(is_plain) {
+            // Rows of equal length: no question is asked for each number.
+            let size = 4 * element.properties.len();
+            if let Some(bytes) = source.take_bytes(size * count) {
+                for record in bytes.chunks_exact(size) {
+                    let mut row = OPAQUE;
+                    for (number, column) in record.as_chunks::<4>().0.iter().zip(&columns) {
+                        if let Some(column) = column {
+                            row[*column] = f32::from_le_bytes(*number);
+                        }
+                    }
+                    add(row, &mut self.file.mesh);
+                    left -= 1;
+                }
+            }
+        }
+        for _ in 0..left {
+            let mut row = OPAQUE;
+            for (property, column) in element.properties.iter().zip(&columns) {
+                match column {
+                    Some(column @ 8..) => {
+                        row[*column] = color(source.float(property.scalar)?, property, *column == 11)
+                    }
+                    Some(column) => row[*column] = source.float(property.scalar)?,
+                    None => skip_property(property, source)?,
+                }
+            }
+            self.surplus += u64::from(source.end_row());
+            add(row, &mut self.file.mesh);
         }
         let mesh = &mut self.file.mesh;
         if has_uvs {
@@ -166,7 +190,7 @@ impl Reader {
             }
         }
         let mut uvs: Vec<Vec2> = Vec::new();
-        for _ in 0..element.count {
+        for _ in self.plain_faces(element, source)..element.count {
             if element.properties.is_empty() {
                 break;
             }
@@ -201,6 +225,38 @@ impl Reader {
             self.end_face(first, &uvs, slot);
         }
         Ok(())
+    }
+
+    /// Reads faces as far as they are of the usual kind (a byte for the length, then indices of four bytes, nothing else)
+    /// without asking for each number; returns how many. Whatever is odd is left to the long way.
+    fn plain_faces(&mut self, element: &Element, source: &mut impl Source) -> u64 {
+        let [property] = element.properties.as_slice() else { return 0 };
+        let is_usual = property.list_length == Some(Scalar::U8)
+            && matches!(property.scalar, Scalar::I32 | Scalar::U32)
+            && matches!(property.name.as_str(), "vertex_indices" | "vertex_index");
+        let Some(bytes) = source.bytes_left().filter(|_| is_usual && self.has_vertices) else { return 0 };
+        let known = self.file.mesh.positions.len() as u64;
+        let mesh = &mut self.file.mesh;
+        mesh.face_ends.reserve(element.count as usize);
+        mesh.slots.reserve(element.count as usize);
+        let (mut faces, mut at) = (0, 0);
+        while faces < element.count
+            && let Some((&length, rest)) = bytes[at..].split_first()
+            && length >= 3
+            && let Some(indices) = rest.get(..4 * usize::from(length))
+        {
+            let indices = indices.as_chunks::<4>().0.iter().map(|index| u32::from_le_bytes(*index));
+            if indices.clone().any(|index| u64::from(index) >= known) {
+                break;
+            }
+            mesh.corners.extend(indices);
+            mesh.face_ends.push(mesh.corners.len() as u32);
+            mesh.slots.push(0);
+            at += 1 + 4 * usize::from(length);
+            faces += 1;
+        }
+        source.take_bytes(at);
+        faces
     }
 
     fn vertex_index(&mut self, index: i64, source: &impl Source) -> Result<u32, DecodeError> {
@@ -323,11 +379,6 @@ fn color(stored: f32, property: &Property, is_alpha: bool) -> f32 {
         Some(full) if is_alpha => stored / full,
         Some(full) => srgb_to_linear(stored / full),
     }
-}
-
-/// The sRGB transfer curve (IEC 61966-2-1).
-fn srgb_to_linear(stored: f32) -> f32 {
-    if stored <= 0.04045 { stored / 12.92 } else { libm::powf((stored + 0.055) / 1.055, 2.4) }
 }
 
 fn skip_element(element: &Element, source: &mut impl Source) -> Result<(), DecodeError> {

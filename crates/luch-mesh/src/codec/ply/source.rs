@@ -18,6 +18,10 @@ pub(super) trait Source {
     fn last(&self) -> String;
     /// Ends an element: whatever else stands in its line of a text is passed over. True if there was something.
     fn end_row(&mut self) -> bool;
+    /// The next `length` bytes if numbers stand there lowest byte first; they are then taken.
+    fn take_bytes(&mut self, length: usize) -> Option<&[u8]>;
+    /// All bytes that are left, if numbers stand there lowest byte first.
+    fn bytes_left(&self) -> Option<&[u8]>;
     /// True if nothing but white space (for text) is left.
     fn is_done(&mut self) -> bool;
 
@@ -130,6 +134,14 @@ impl Source for Text<'_> {
         !rest[..length].trim_ascii().is_empty()
     }
 
+    fn take_bytes(&mut self, _: usize) -> Option<&[u8]> {
+        None
+    }
+
+    fn bytes_left(&self) -> Option<&[u8]> {
+        None
+    }
+
     fn is_done(&mut self) -> bool {
         self.skip_space();
         self.at == self.bytes.len()
@@ -221,6 +233,17 @@ impl Source for Binary<'_> {
 
     fn end_row(&mut self) -> bool {
         false
+    }
+
+    fn take_bytes(&mut self, length: usize) -> Option<&[u8]> {
+        let taken = self.bytes_left()?.len().min(length);
+        let start = self.at;
+        self.at += taken;
+        Some(&self.bytes[start..start + taken])
+    }
+
+    fn bytes_left(&self) -> Option<&[u8]> {
+        self.is_little_endian.then(|| &self.bytes[self.at..])
     }
 
     fn is_done(&mut self) -> bool {

@@ -1,13 +1,12 @@
 //! The readers.
 
-use std::collections::HashMap;
-
 use glam::Vec3;
 
 use super::StlFile;
 use crate::codec::cursor::{Line, Lines};
 use crate::codec::error::{DecodeError, ErrorKind, Place, Warnings, quote};
 use crate::codec::token::{parse_f32, split_word, words};
+use crate::codec::welding::Welder;
 
 /// Header, then the number of triangles.
 const HEADER: usize = 84;
@@ -154,7 +153,7 @@ fn wrong(line: &Line, part: &[u8], expected: &str) -> DecodeError {
 #[derive(Default)]
 struct Collector {
     file: StlFile,
-    numbers: HashMap<[u32; 3], u32>,
+    welder: Welder,
     warnings: Warnings,
 }
 
@@ -162,7 +161,7 @@ impl Collector {
     fn reserve(&mut self, triangles: usize) {
         self.file.mesh.triangles.reserve(triangles);
         // A closed mesh has half as many positions as triangles.
-        self.numbers.reserve(triangles / 2);
+        self.welder.reserve(triangles / 2);
     }
 
     fn add(&mut self, normal: Vec3, corners: [Vec3; 3], line: Option<u64>) {
@@ -170,15 +169,7 @@ impl Collector {
             self.warnings.add(line, "a triangle with a corner that is not finite is left out");
             return;
         }
-        let indices = corners.map(|corner| {
-            // Adding zero makes -0 and 0 the same.
-            let key = (corner + Vec3::ZERO).to_array().map(f32::to_bits);
-            let positions = &mut self.file.mesh.positions;
-            *self.numbers.entry(key).or_insert_with(|| {
-                positions.push(corner + Vec3::ZERO);
-                positions.len() as u32 - 1
-            })
-        });
+        let indices = corners.map(|corner| self.welder.number(corner));
         let [a, b, c] = indices;
         if a == b || b == c || c == a {
             self.warnings.add(line, "a triangle with two equal corners is left out");
@@ -196,6 +187,7 @@ impl Collector {
         if self.file.mesh.triangles.is_empty() {
             self.warnings.add(None, "the file has no triangles");
         }
+        self.file.mesh.positions = self.welder.positions;
         self.file.warnings = self.warnings.into_list();
         self.file
     }

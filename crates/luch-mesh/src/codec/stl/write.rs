@@ -1,30 +1,26 @@
 //! The writers.
 
-use std::fmt::Write;
-
 use glam::Vec3;
 
 use crate::TriangleMesh;
+use crate::codec::text::{put_all, write_rows};
 
 /// Writes text. Numbers are the shortest that read back as the same `f32`; all but positions is lost.
 pub fn encode_ascii(mesh: &TriangleMesh) -> String {
-    let mut text = String::from("solid mesh\n");
-    // Writing to a string cannot fail.
-    let _ = write_facets(&mut text, mesh);
-    text.push_str("endsolid mesh\n");
-    text
-}
-
-fn write_facets(text: &mut String, mesh: &TriangleMesh) -> std::fmt::Result {
-    for t in 0..mesh.triangles.len() {
-        let n = facet_normal(mesh, t);
-        writeln!(text, "  facet normal {} {} {}\n    outer loop", n.x, n.y, n.z)?;
-        for p in mesh.corners(t) {
-            writeln!(text, "      vertex {} {} {}", p.x, p.y, p.z)?;
+    let mut text = b"solid mesh\n".to_vec();
+    write_rows(&mut text, mesh.triangles.len(), |t, text| {
+        text.extend_from_slice(b"  facet normal");
+        put_all(text, &facet_normal(mesh, t).to_array());
+        text.extend_from_slice(b"\n    outer loop\n");
+        for corner in mesh.corners(t) {
+            text.extend_from_slice(b"      vertex");
+            put_all(text, &corner.to_array());
+            text.push(b'\n');
         }
-        text.push_str("    endloop\n  endfacet\n");
-    }
-    Ok(())
+        text.extend_from_slice(b"    endloop\n  endfacet\n");
+    });
+    text.extend_from_slice(b"endsolid mesh\n");
+    String::from_utf8_lossy(&text).into_owned()
 }
 
 /// Writes binary data; all but positions is lost. Meshes of more than 2³² − 1 triangles are cut off there.
@@ -33,13 +29,13 @@ pub fn encode_binary(mesh: &TriangleMesh) -> Vec<u8> {
     let mut bytes = vec![0; 80];
     bytes[..11].copy_from_slice(b"binary mesh");
     bytes.extend(count.to_le_bytes());
-    for t in 0..count as usize {
+    write_rows(&mut bytes, count as usize, |t, bytes| {
         let [a, b, c] = mesh.corners(t);
-        for vector in [facet_normal(mesh, t), a, b, c] {
-            bytes.extend(vector.to_array().into_iter().flat_map(f32::to_le_bytes));
+        for number in [facet_normal(mesh, t), a, b, c].map(|vector| vector.to_array()).as_flattened() {
+            bytes.extend_from_slice(&number.to_le_bytes());
         }
-        bytes.extend([0, 0]);
-    }
+        bytes.extend_from_slice(&[0, 0]);
+    });
     bytes
 }
 
