@@ -25,6 +25,7 @@ mod model;
 pub mod shapes;
 mod surface;
 mod tessellate;
+pub mod text;
 mod trim;
 
 pub use bezier::SurfacePoint;

@@ -1,6 +1,6 @@
 //! Patches from files and by verbs.
 
-use luch_mesh::patch::{Fineness, bpt, car};
+use luch_mesh::patch::{Fineness, PatchModel, bpt, car, shapes, text};
 use luch_mesh::workshop::{Files, Pipeline, WorkshopError};
 use luch_mesh::{PolygonMesh, measure};
 
@@ -45,8 +45,15 @@ fn patches_of_a_file_become_a_closed_mesh() {
     // Half the tolerance takes about twice the triangles: cells shrink with its root both ways.
     let model = bpt::decode(text.as_bytes()).unwrap();
     let count = |tolerance| model.tessellate(Fineness::Tolerance(tolerance)).unwrap().triangles.len() as f64;
-    let ratio = count(1e-4) / count(2e-4);
+    let ratio = count(5e-4) / count(1e-3);
     assert!((1.7..2.3).contains(&ratio), "{ratio}");
+}
+
+#[test]
+fn rational_patches_come_from_text() {
+    let model = PatchModel::from(shapes::torus(1.0, 0.25).unwrap());
+    let mesh = run("patches a.patches --tolerance 0.01", text::encode(&model).as_bytes()).unwrap();
+    assert_eq!(measure::closedness(&mesh.triangulate()).to_string(), "closed (1 piece, genus 1)");
 }
 
 #[test]

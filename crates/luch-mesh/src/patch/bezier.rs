@@ -98,16 +98,15 @@ impl Net {
 
     pub(super) fn evaluate(&self, u: f64, v: f64) -> SurfacePoint {
         let [p, q] = self.degrees;
-        let (along_u, along_v) = (bernstein(p, u), bernstein(q, v));
+        let (along_u, [zeroth, first, second]) = (bernstein(p, u), bernstein(q, v));
         let mut parts = [DVec4::ZERO; 6];
-        for j in 0..=q {
+        for (j, ((b0, b1), b2)) in zeroth.into_iter().zip(first).zip(second).enumerate() {
             let mut row = [DVec4::ZERO; 3];
             for i in 0..=p {
                 for (sum, basis) in row.iter_mut().zip(&along_u) {
                     *sum += self.at(i, j) * basis[i];
                 }
             }
-            let [b0, b1, b2] = [0, 1, 2].map(|k| along_v[k][j]);
             let terms = [row[0] * b0, row[1] * b0, row[0] * b1, row[2] * b0, row[1] * b1, row[0] * b2];
             parts.iter_mut().zip(terms).for_each(|(part, term)| *part += term);
         }

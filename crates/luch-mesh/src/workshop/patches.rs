@@ -4,7 +4,8 @@ use glam::DVec3;
 
 use super::{Action, Arguments, Kind, Parameter, Verb, WorkshopError};
 use crate::PolygonMesh;
-use crate::patch::{ControlPoint, Fineness, PatchError, PatchModel, Surface, bpt, car, shapes};
+use crate::patch::{ControlPoint, Fineness, PatchError, PatchModel, Surface, bpt, car, shapes, text};
+use crate::words::Words;
 
 const TOLERANCE: Parameter = Parameter::optional(
     "tolerance",
@@ -22,8 +23,12 @@ const RADIUS: Parameter = Parameter::new("radius", Kind::POSITIVE, "1", "radius 
 pub(super) const VERBS: &[Verb] = &[
     Verb {
         name: "patches",
-        summary: "Bezier patches from a .bpt file as triangles without cracks",
-        parameters: &[Parameter::required("file", Kind::File, "the .bpt file"), TOLERANCE, DIVISIONS],
+        summary: "Patches from a file as triangles without cracks: Bezier (.bpt), or rational and trimmed (.patches)",
+        parameters: &[
+            Parameter::required("file", Kind::File, "the .bpt or .patches file"),
+            TOLERANCE,
+            DIVISIONS,
+        ],
         example: "car-body.bpt --tolerance 0.01",
         action: Action::Make { closed: true, run: patches },
     },
@@ -85,15 +90,17 @@ pub(super) const VERBS: &[Verb] = &[
 ];
 
 fn patches(arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
-    let model = bpt::decode(arguments.file("file").unwrap_or_default())
-        .map_err(|error| WorkshopError::of("file", error.to_string()))?;
+    let bytes = arguments.file("file").unwrap_or_default();
+    let is_text = Words::new(bytes).peek().is_some_and(|word| word.text == text::MARK.as_bytes());
+    let model = if is_text { text::decode(bytes) } else { bpt::decode(bytes) };
+    let model = model.map_err(|error| WorkshopError::of("file", error.to_string()))?;
     triangles(&model, arguments)
 }
 
 fn bezier_patch(arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
     let numbers = arguments.numbers("points");
     let columns = arguments.count("columns") as usize;
-    if numbers.len() % (3 * columns) != 0 || numbers.len() < 6 * columns {
+    if !numbers.len().is_multiple_of(3 * columns) || numbers.len() < 6 * columns {
         let message = format!(
             "there are {} numbers, expected three for each of at least two rows of {columns} points",
             numbers.len()

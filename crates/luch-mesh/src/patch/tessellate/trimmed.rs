@@ -53,7 +53,7 @@ impl Axis {
     }
 
     fn is_break(&self, cell: f64) -> bool {
-        self.cells.contains(&cell)
+        self.cells.binary_search_by(|known| known.total_cmp(&cell)).is_ok()
     }
 }
 
@@ -263,13 +263,13 @@ impl Sheet<'_> {
     fn breaks_between(&self, from: DVec2, to: DVec2) -> Vec<Node> {
         let mut cuts: Vec<(f64, DVec2)> = Vec::new();
         for (axis, cells) in [(0, &self.u.cells), (1, &self.v.cells)] {
-            for &line in cells {
-                if from[axis].min(to[axis]) < line && line < from[axis].max(to[axis]) {
-                    let share = (line - from[axis]) / (to[axis] - from[axis]);
-                    let mut cell = from.lerp(to, share);
-                    cell[axis] = line;
-                    cuts.push((share, cell));
-                }
+            let (low, high) = (from[axis].min(to[axis]), from[axis].max(to[axis]));
+            let first = cells.partition_point(|&line| line <= low);
+            for &line in cells[first..].iter().take_while(|&&line| line < high) {
+                let share = (line - from[axis]) / (to[axis] - from[axis]);
+                let mut cell = from.lerp(to, share);
+                cell[axis] = line;
+                cuts.push((share, cell));
             }
         }
         cuts.sort_by(|one, other| one.0.total_cmp(&other.0));
@@ -302,19 +302,18 @@ impl Sheet<'_> {
             }
         }
         // Lines along the inner breaks, from node to node.
-        for (axis, cells) in [(0, self.u.cells.clone()), (1, self.v.cells.clone())] {
-            for line in &cells[1..cells.len() - 1] {
-                let mut on: Vec<u32> = (0..self.nodes.len() as u32)
-                    .filter(|&n| self.nodes[n as usize].cell[axis] == *line)
-                    .collect();
-                let along = |n: u32| self.nodes[n as usize].cell[1 - axis];
-                on.sort_by(|&one, &other| along(one).total_cmp(&along(other)));
-                for pair in on.windows(2) {
-                    let middle =
-                        self.nodes[pair[0] as usize].cell.midpoint(self.nodes[pair[1] as usize].cell);
-                    if outline.contains(middle) {
-                        self.plane.constrain(pair[0], pair[1]);
-                    }
+        for axis in [0, 1] {
+            let breaks = if axis == 0 { &self.u } else { &self.v };
+            let is_inner = |line: f64| line > 0.0 && line < breaks.end() && breaks.is_break(line);
+            let mut on: Vec<(DVec2, u32)> = (0..).zip(&self.nodes).map(|(n, node)| (node.cell, n)).collect();
+            on.retain(|(cell, _)| is_inner(cell[axis]));
+            on.sort_by(|(one, _), (other, _)| {
+                one[axis].total_cmp(&other[axis]).then(one[1 - axis].total_cmp(&other[1 - axis]))
+            });
+            for pair in on.windows(2) {
+                let [(one, from), (other, to)] = [pair[0], pair[1]];
+                if one[axis] == other[axis] && outline.contains(one.midpoint(other)) {
+                    self.plane.constrain(from, to);
                 }
             }
         }
