@@ -39,7 +39,7 @@ pub use build::Quality;
 pub use bvh::{Bvh, NearestPoint};
 pub use hit::{Coherence, Crossing, Hit};
 pub use ray::Ray;
-pub use scene_tree::{Geometry, Instance, InstanceHit, SceneTree};
+pub use scene_tree::{Geometry, Instance, InstanceHit, SceneTree, Traced, TracedHit};
 pub use slab::{Interval, SlabRay};
 pub use tree::Statistics;
 pub use triangle::Triangle;

@@ -11,10 +11,12 @@
 mod geometry;
 mod placed;
 mod search;
+mod traced;
 
 pub use geometry::Geometry;
 pub(crate) use placed::Placed;
 pub(crate) use search::{Filter, bound_inside};
+pub use traced::{Traced, TracedHit};
 
 use crate::build::Quality;
 use crate::tree::Tree;

@@ -1,12 +1,14 @@
-//! Shapes with an exact ray test of their own: sphere, disc, parallelogram, plane.
+//! Shapes with an exact ray test of their own: sphere, frustum, disc, parallelogram, plane.
 //!
 //! All reckon in double precision from single precision numbers, so the only rounding that shows is that of the result.
 //! Like every leaf test they are pure functions of ray and shape and accept `t` inside the ray's own interval only.
 
 mod flat;
+mod frustum;
 mod sphere;
 
 pub use flat::{Disc, Parallelogram, Plane};
+pub use frustum::{Frustum, FrustumPart};
 pub use sphere::Sphere;
 
 use crate::{Ray, SlabRay};

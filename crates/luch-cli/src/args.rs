@@ -1,11 +1,18 @@
 //! What was typed.
 
 mod bench;
+mod mesh;
 mod parameters;
+mod preview;
 mod render;
 
 pub(crate) use bench::{BenchArgs, BenchVerb, CameraArgs, Choice, RaysArgs};
+pub(crate) use mesh::{
+    CompareMeshesArgs, ConvertArgs, InfoArgs, MeshArgs, MeshOutputArgs, QueryArgs, RunArgs, SampleArgs,
+    StepArgs, VerbsArgs,
+};
 pub(crate) use parameters::ParameterArgs;
+pub(crate) use preview::{HiddenLines, PreviewArgs, TerminalColors};
 pub(crate) use render::{PictureArgs, ProgressStyle, RenderArgs};
 
 use crate::parse;
@@ -32,6 +39,8 @@ pub(crate) enum Verb {
     Develop(DevelopArgs),
     Compare(CompareArgs),
     Check(CheckArgs),
+    Mesh(Box<MeshArgs>),
+    Preview(Box<PreviewArgs>),
     Bench(Box<BenchArgs>),
     Completions(CompletionsArgs),
 }

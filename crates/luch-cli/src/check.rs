@@ -62,6 +62,7 @@ fn bounds(scene: &Scene) -> Aabb {
                 let corner = glam::Vec3::new(*radius, 0.0, *radius);
                 Aabb::of_points([-corner, corner])
             }
+            Shape::Traced(form) => Aabb::of_points(form.corners()),
             Shape::Plane => continue,
         };
         if !own.is_empty() {

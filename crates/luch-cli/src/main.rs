@@ -19,8 +19,10 @@ mod film_file;
 mod interrupt;
 mod layers;
 mod merge;
+mod mesh;
 mod outputs;
 mod parse;
+mod preview;
 mod processor_time;
 mod progress;
 mod provenance;
@@ -42,6 +44,8 @@ fn main() -> ExitCode {
         Verb::Develop(args) => develop::run(&args),
         Verb::Compare(args) => compare::run(&args),
         Verb::Check(args) => check::run(&args),
+        Verb::Mesh(args) => mesh::run(&args),
+        Verb::Preview(args) => preview::run(&args),
         Verb::Bench(args) => bench::run(&args),
         Verb::Completions(args) => completions::run(&args),
     };

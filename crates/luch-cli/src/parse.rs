@@ -38,6 +38,25 @@ pub(crate) fn size(text: &str) -> Result<Size, String> {
     Ok(Size { width: side(width)?, height: side(height)? })
 }
 
+/// An angle between faces in degrees; in radians.
+pub(crate) fn crease(text: &str) -> Result<f32, String> {
+    let degrees =
+        text.trim_end_matches("deg").parse().ok().filter(|angle: &f32| (0.0..=180.0).contains(angle));
+    degrees.map(f32::to_radians).ok_or_else(|| format!("`{text}` is no angle from 0 to 180 degrees"))
+}
+
+/// A part of something, above 0 and at most 1.
+pub(crate) fn part(text: &str) -> Result<f64, String> {
+    let part = text.parse().ok().filter(|part: &f64| *part > 0.0 && *part <= 1.0);
+    part.ok_or_else(|| format!("`{text}` is no number above 0 and up to 1"))
+}
+
+/// The width of a line in pixels.
+pub(crate) fn line_width(text: &str) -> Result<f32, String> {
+    let width = text.parse().ok().filter(|width: &f32| (0.0..=64.0).contains(width));
+    width.ok_or_else(|| format!("`{text}` is no width from 0 to 64 pixels"))
+}
+
 /// `30s`, `2m`, `1h30m`, `250ms`; a bare number is in seconds.
 pub(crate) fn duration(text: &str) -> Result<Duration, String> {
     let wrong = || format!("`{text}` is no duration; write 30s, 2m, 1h30m or 250ms");

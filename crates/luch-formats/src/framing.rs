@@ -35,6 +35,10 @@ pub fn bounding_sphere(scene: &Scene) -> Option<BoundingSphere> {
                 Some(BoundingSphere { center: Vec3::ZERO, radius: *radius })
             }
             Shape::Plane => None,
+            Shape::Traced(form) => {
+                let [low, high] = form.corners();
+                Some(BoundingSphere { center: 0.5 * (low + high), radius: 0.5 * (high - low).length() })
+            }
         })
         .collect();
     let mut total: Option<Ball> = None;

@@ -156,6 +156,8 @@ impl Resolver<'_> {
                     let new = || self.scene.add_shape(Shape::Disc { radius: *radius });
                     Some(*known.entry((1, radius.to_bits())).or_insert_with(new))
                 }
+                ShapeSource::HeightField(step) => self.height_field(step),
+                ShapeSource::Traced(form) => Some(self.scene.add_shape(Shape::Traced(form.clone()))),
                 ShapeSource::Plane => {
                     Some(*known.entry((2, 0)).or_insert_with(|| self.scene.add_shape(Shape::Plane)))
                 }

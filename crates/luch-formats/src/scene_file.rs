@@ -26,8 +26,8 @@ pub(crate) use source::{Report, Span, advice, clip};
 
 use glam::{Affine3A, Mat3};
 use luch_image::{Encoding, Rgb};
-use luch_mesh::generate::Generator;
-use luch_scene::{Light, Material, NamedCamera, Settings, TextureFilter, Wrap};
+use luch_mesh::workshop::Step;
+use luch_scene::{Light, Material, NamedCamera, Settings, TextureFilter, Traced, Wrap};
 
 /// A value and where it is written.
 #[derive(Clone, Debug)]
@@ -107,11 +107,18 @@ pub(crate) struct MeshSource {
 #[derive(Clone, Debug)]
 pub(crate) enum MeshOrigin {
     File(Spanned<String>),
-    Generator(Generator),
+    Form(WorkshopStep),
+}
+
+/// A verb of the workshop with its arguments.
+#[derive(Clone, Debug)]
+pub(crate) struct WorkshopStep {
+    pub(crate) span: Span,
+    pub(crate) step: Step,
 }
 
 /// What is done to a mesh, in the order it is written.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum MeshOperation {
     /// Drops the normals: every triangle is flat.
     FlatNormals,
@@ -124,6 +131,7 @@ pub(crate) enum MeshOperation {
     /// Turns the surface inside out.
     Flip,
     Transform(Affine3A),
+    Workshop(WorkshopStep),
 }
 
 /// What an object is made of.
@@ -139,6 +147,9 @@ pub(crate) enum ShapeSource {
         radius: f32,
     },
     Plane,
+    Traced(Traced),
+    /// A verb that makes heights, which are traced as they are.
+    HeightField(WorkshopStep),
 }
 
 /// A shape put into the world.

@@ -21,6 +21,7 @@ mod heights;
 mod implicits;
 mod patches;
 mod pipeline;
+mod reference;
 mod repairs;
 mod subdivisions;
 mod value;
@@ -29,6 +30,7 @@ mod verb;
 pub use arguments::Arguments;
 pub use error::WorkshopError;
 pub use pipeline::{Pipeline, Step};
+pub use reference::reference;
 pub use value::{Kind, Value};
 pub use verb::{Action, Fallback, Keeps, Parameter, Verb};
 
@@ -53,6 +55,20 @@ impl Files for NoFiles {
 
     fn mesh(&mut self, _: &str) -> Result<PolygonMesh, String> {
         Err("there are no files here".into())
+    }
+}
+
+/// Every file is empty: for checking arguments before files are read.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Unread;
+
+impl Files for Unread {
+    fn bytes(&mut self, _: &str) -> Result<Vec<u8>, String> {
+        Ok(Vec::new())
+    }
+
+    fn mesh(&mut self, _: &str) -> Result<PolygonMesh, String> {
+        Ok(PolygonMesh::default())
     }
 }
 

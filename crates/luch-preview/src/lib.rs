@@ -39,6 +39,7 @@ mod subject;
 mod surface;
 mod terminal;
 mod texture;
+mod traced;
 mod view;
 mod visibility;
 

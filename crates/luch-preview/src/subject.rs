@@ -2,6 +2,7 @@
 
 use crate::exact::Exact;
 use crate::outline::Outline;
+use crate::traced;
 use crate::view::wide_affine;
 use glam::{Affine3A, Vec3};
 use luch_bvh::Aabb;
@@ -158,6 +159,10 @@ impl<'a> Form<'a> {
             Shape::Sphere { radius } => Exact::Sphere { radius: f64::from(*radius) },
             Shape::Disc { radius } => Exact::Disc { radius: f64::from(*radius) },
             Shape::Plane => Exact::Plane,
+            Shape::Traced(form) => {
+                let triangles = Cow::Owned(traced::triangles(form));
+                return Self::of_mesh(Mesh { triangles, polygons: None });
+            }
         };
         Self { bounds: exact.bounds(), kind: FormKind::Exact(exact), outline: OnceLock::new() }
     }

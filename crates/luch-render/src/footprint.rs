@@ -2,6 +2,7 @@
 
 use crate::geometry::local_normal;
 use crate::place::Place;
+use crate::traced;
 use glam::{Mat3, Vec2, Vec3};
 use luch_image::{Bitmap, Encoding, Pyramid};
 use luch_scene::{
@@ -168,6 +169,7 @@ fn texture_steps(place: &Place, used: &TextureUse, steps: [Vec3; 2]) -> Option<[
         }
         Shape::Disc { radius } => Vec2::new(step.x, -step.z) / (2.0 * radius),
         Shape::Plane | Shape::Mesh(_) => Vec2::new(step.x, -step.z),
+        Shape::Traced(form) => traced::uv_step(form, place, step),
     };
     Some(steps.map(|step| turn * change(inverse * step)))
 }

@@ -2,6 +2,7 @@
 
 use crate::joined::Joined;
 use crate::place::Place;
+use crate::traced;
 use glam::{Mat3, Vec3};
 use luch_bvh::{Aabb, Coherence, InstanceHit, Quality, Ray, SceneTree, TriangleBvh, shape};
 use luch_sampling::hash;
@@ -168,6 +169,7 @@ pub(crate) fn local_normal(place: &Place) -> Vec3 {
         Shape::Mesh(mesh) => mesh.area_normal(place.primitive),
         Shape::Sphere { .. } => place.local,
         Shape::Disc { .. } | Shape::Plane => Vec3::Y,
+        Shape::Traced(form) => traced::normal(form, place),
     }
 }
 
@@ -184,6 +186,7 @@ fn geometry_of(shape: &Shape) -> luch_bvh::Geometry {
             luch_bvh::Geometry::Disc(shape::Disc { center: Vec3::ZERO, normal: Vec3::Y, radius: *radius })
         }
         Shape::Plane => luch_bvh::Geometry::Plane(shape::Plane { point: Vec3::ZERO, normal: Vec3::Y }),
+        Shape::Traced(form) => traced::geometry(form),
     }
 }
 
@@ -194,6 +197,7 @@ fn is_closed(shape: &Shape) -> bool {
         }
         Shape::Sphere { .. } => true,
         Shape::Disc { .. } | Shape::Plane => false,
+        Shape::Traced(form) => form.is_closed(),
     }
 }
 
@@ -235,6 +239,7 @@ fn no_camera_inside(scene: &Scene, instance: &Instance) -> bool {
         Shape::Mesh(mesh) => Aabb::of_points(mesh.positions.iter().copied()),
         Shape::Sphere { radius } => Aabb::of_points([Vec3::splat(-radius), Vec3::splat(*radius)]),
         Shape::Disc { .. } | Shape::Plane => return false,
+        Shape::Traced(form) => traced::bounds(form),
     };
     let bounds = bounds.transformed(&instance.placement);
     scene.cameras.iter().all(|named| {

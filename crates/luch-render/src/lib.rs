@@ -54,6 +54,7 @@ mod roulette;
 mod stop;
 mod surface;
 mod texture;
+mod traced;
 mod view;
 mod wave;
 mod world;

@@ -177,7 +177,7 @@ impl Lights {
             Shape::Disc { radius } => {
                 Emitter::Disc(Box::new(DiscEmitter::new(*radius, placement, index, material, &emission)))
             }
-            Shape::Mesh(_) | Shape::Plane => return,
+            Shape::Mesh(_) | Shape::Plane | Shape::Traced(_) => return,
         };
         let place = self.push(emitter);
         self.places.add(index, [Some(place)]);

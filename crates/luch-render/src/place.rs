@@ -2,6 +2,7 @@
 
 use crate::footprint::Footprint;
 use crate::texture::look_up;
+use crate::traced;
 use glam::{Vec2, Vec3, Vec4};
 use luch_bvh::InstanceHit;
 use luch_image::Rgb;
@@ -78,6 +79,7 @@ impl<'a> Place<'a> {
                 Vec2::new(self.local.x, -self.local.z) / (2.0 * radius) + Vec2::splat(0.5)
             }
             Shape::Plane => Vec2::new(self.local.x, -self.local.z),
+            Shape::Traced(form) => traced::uv(form, self),
         }
     }
 

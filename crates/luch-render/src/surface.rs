@@ -3,6 +3,7 @@
 use crate::footprint::{Footprint, Pyramids};
 use crate::geometry::{Geometry, is_smooth, local_normal};
 use crate::place::{Place, blend};
+use crate::traced;
 use glam::{Mat3, Vec3};
 use luch_bvh::{InstanceHit, Ray};
 use luch_sampling::Frame;
@@ -53,6 +54,10 @@ impl<'a> SurfacePoint<'a> {
                 let near = placement.inverse().transform_point3(ray.at(hit.hit.t));
                 Vec3::new(near.x, 0.0, near.z)
             }
+            Shape::Traced(form) => {
+                place.local = placement.inverse().transform_point3(ray.at(hit.hit.t));
+                traced::point(form, &place)
+            }
         };
         let position = placement.transform_point3(place.local);
         let error = position_error(&place, ray, &hit);
@@ -93,15 +98,14 @@ impl<'a> SurfacePoint<'a> {
     /// Finds the shading frame.
     fn shade(&mut self, normal_map: &Mat3) {
         let mut normal = self.geometric_normal;
-        if let Shape::Mesh(mesh) = self.place.shape
-            && is_smooth(self.place.scene)
-            && let Some(corners) = mesh.corner_normals(self.place.primitive)
+        if is_smooth(self.place.scene)
+            && let Some((places, normals)) = self.facet()
         {
-            let corners = corners.map(|n| (*normal_map * n).try_normalize().unwrap_or(self.geometric_normal));
+            let corners = normals.map(|n| (*normal_map * n).try_normalize().unwrap_or(self.geometric_normal));
             let smooth = blend(corners, self.place.weights).try_normalize().unwrap_or(self.geometric_normal);
             normal = if smooth.dot(self.geometric_normal) < 0.0 { -smooth } else { smooth };
             if corners.iter().any(|n| n.distance_squared(self.geometric_normal) > 1e-10) {
-                self.lift = self.terminator_lift(mesh.corners(self.place.primitive), corners);
+                self.lift = self.terminator_lift(places, corners);
             }
         }
         let material = &self.place.scene.materials[self.material.index()];
@@ -113,6 +117,18 @@ impl<'a> SurfacePoint<'a> {
             }
         };
         self.keep_visible();
+    }
+
+    /// Corners and normals of the flat piece that the point is on, in the shape's coordinates.
+    fn facet(&self) -> Option<([Vec3; 3], [Vec3; 3])> {
+        match self.place.shape {
+            Shape::Mesh(mesh) => {
+                let triangle = self.place.primitive;
+                mesh.corner_normals(triangle).map(|normals| (mesh.corners(triangle), normals))
+            }
+            Shape::Traced(form) => traced::facet(form, &self.place),
+            Shape::Sphere { .. } | Shape::Disc { .. } | Shape::Plane => None,
+        }
     }
 
     /// Lifts the point onto the smooth surface that the corner normals suggest, so that shadows do not show the triangles
@@ -163,6 +179,7 @@ impl<'a> SurfacePoint<'a> {
             }
             Shape::Sphere { .. } => (Vec3::new(self.place.local.z, 0.0, -self.place.local.x), mirrored),
             Shape::Disc { .. } | Shape::Plane => (Vec3::X, mirrored),
+            Shape::Traced(form) => (traced::tangent(form, &self.place), mirrored),
         };
         let tangent = linear * tangent;
         let tangent = (tangent - normal * normal.dot(tangent)).try_normalize()?;
@@ -273,7 +290,7 @@ fn position_error(place: &Place, ray: &Ray, hit: &InstanceHit) -> f32 {
         }
         Shape::Sphere { radius } => (Vec3::splat(*radius), Vec3::ZERO),
         // Their places are found along the ray and carry its rounding.
-        Shape::Disc { .. } | Shape::Plane => {
+        Shape::Disc { .. } | Shape::Plane | Shape::Traced(_) => {
             (place.local.abs(), ray.origin.abs() + (ray.direction * hit.hit.t).abs())
         }
     };

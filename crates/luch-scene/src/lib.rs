@@ -27,6 +27,7 @@ mod scene;
 mod settings;
 mod shape;
 mod texture;
+mod traced;
 mod validate;
 
 pub use camera::{Camera, Projection};
@@ -38,3 +39,4 @@ pub use scene::{NamedCamera, Scene};
 pub use settings::{Filter, Integrator, Minification, Normals, Property, Settings};
 pub use shape::{Instance, Shape};
 pub use texture::{Channel, ColorValue, ScalarValue, Texture, TextureFilter, TextureUse, Wrap};
+pub use traced::{Frustum, Implicit, Traced};

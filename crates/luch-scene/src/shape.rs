@@ -1,6 +1,6 @@
 //! What can be hit.
 
-use crate::{Id, Material};
+use crate::{Id, Material, Traced};
 use glam::Affine3A;
 use luch_mesh::TriangleMesh;
 use serde::{Deserialize, Serialize};
@@ -23,6 +23,8 @@ pub enum Shape {
     },
     /// The whole plane y = 0, facing +Y.
     Plane,
+    /// Another form that is met by a ray test of its own.
+    Traced(Traced),
 }
 
 /// A shape put somewhere, with its materials.

@@ -209,6 +209,11 @@ impl Problems<'_> {
                         format!("shape {i} has radius {radius}, expected more than 0")
                     }),
                 Shape::Plane => {}
+                Shape::Traced(form) => {
+                    if let Some(problem) = form.problem() {
+                        self.sentences.push(format!("shape {i} has {problem}"));
+                    }
+                }
             }
         }
     }

@@ -23,8 +23,10 @@
 
 pub use luch_bvh as bvh;
 pub use luch_formats as formats;
+pub use luch_formula as formula;
 pub use luch_image as image;
 pub use luch_mesh as mesh;
+pub use luch_preview as preview;
 pub use luch_render as render;
 pub use luch_sampling as sampling;
 pub use luch_scene as scene;

@@ -4,8 +4,10 @@ use crate::adversarial::rays;
 use crate::meshes::{self, Mesh};
 use crate::random::Random;
 use glam::{Affine3A, Mat3A, Vec3, vec3};
-use luch_bvh::shape::{Disc, Parallelogram, Plane, Sphere};
-use luch_bvh::{Coherence, Geometry, Instance, InstanceHit, Quality, Ray, SceneTree, TriangleBvh};
+use luch_bvh::shape::{Disc, Frustum, Parallelogram, Plane, Sphere};
+use luch_bvh::{
+    Aabb, Coherence, Geometry, Instance, InstanceHit, Quality, Ray, SceneTree, Traced, TracedHit, TriangleBvh,
+};
 use std::sync::Arc;
 
 pub(crate) fn bits(hit: Option<InstanceHit>) -> Option<[u32; 5]> {
@@ -25,6 +27,9 @@ pub(crate) fn geometries() -> Vec<Geometry> {
         triangles(&meshes::cube()),
         triangles(&meshes::soup(60, 3)),
         Geometry::Sphere(Sphere { center: vec3(0.2, 0.0, 0.0), radius: 0.7 }),
+        Geometry::Frustum(Frustum { bottom_radius: 0.6, top_radius: 0.2, height: 1.1, capped: true }),
+        Geometry::Frustum(Frustum { bottom_radius: 0.5, top_radius: 0.5, height: 0.8, capped: false }),
+        Geometry::Traced(Arc::new(Shells)),
         Geometry::Disc(Disc { center: Vec3::ZERO, normal: vec3(0.2, 1.0, 0.1), radius: 0.8 }),
         Geometry::Parallelogram(Parallelogram {
             corner: -Vec3::ONE * 0.5,
@@ -33,6 +38,28 @@ pub(crate) fn geometries() -> Vec<Geometry> {
         }),
         Geometry::Plane(Plane { point: vec3(0.0, -3.0, 0.0), normal: vec3(0.05, 1.0, 0.0) }),
     ]
+}
+
+/// Spheres inside one another: up to six crossings of a ray.
+#[derive(Debug)]
+struct Shells;
+
+impl Traced for Shells {
+    fn bounds(&self) -> Aabb {
+        Sphere { center: Vec3::ZERO, radius: 0.75 }.bounds()
+    }
+
+    fn nearest(&self, ray: &Ray) -> Option<TracedHit> {
+        let shell = |primitive: u32| Sphere { center: Vec3::ZERO, radius: 0.25 * (primitive + 1) as f32 };
+        let crossings = |primitive| {
+            shell(primitive)
+                .crossings(ray)
+                .into_iter()
+                .flatten()
+                .map(move |crossing| TracedHit { crossing, primitive })
+        };
+        (0..3).flat_map(crossings).min_by(|one, other| one.crossing.t.total_cmp(&other.crossing.t))
+    }
 }
 
 /// Mirrored, sheared, flattened to nothing, on top of one another, of geometries that do not exist.

@@ -35,6 +35,7 @@ fn inside(scene: &Scene, named: &NamedCamera) -> Vec<String> {
         match &*scene.shapes[instance.shape.index()] {
             Shape::Sphere { radius } => eye.length() < *radius,
             Shape::Mesh(mesh) => mesh.bounds().contains(eye) && encloses(mesh, eye),
+            Shape::Traced(form) => form.encloses(eye),
             Shape::Disc { .. } | Shape::Plane => false,
         }
     });

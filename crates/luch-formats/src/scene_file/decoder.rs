@@ -45,8 +45,6 @@ pub(super) struct Decoder<'a> {
     /// The files that are being read, one inside the other.
     open: Vec<PathBuf>,
     text_size: usize,
-    /// Triangles that generators will make.
-    pub(super) generated: u64,
     /// Objects so far, each copy counted.
     pub(super) copies: usize,
 }
@@ -63,7 +61,6 @@ pub(crate) fn read(path: &Path, files: &Files) -> Result<(SceneFile, Report), Lo
         included: BTreeSet::new(),
         open: Vec::new(),
         text_size: 0,
-        generated: 0,
         copies: 0,
     };
     decoder.file(path, None);

@@ -1,21 +1,16 @@
-//! `mesh "name" { … }`: a file or a generator, then what is done to it, line by line.
+//! `mesh "name" { … }`: a file or a form, then what is done to it, line by line. Forms and most operations are the verbs of the
+//! mesh workshop: their names, parameters and defaults are told there alone.
 
 use super::decoder::Decoder;
-use super::fields::{Field, Fields};
+use super::fields::{Argument, Field, Fields};
 use super::transform::TRANSFORMS;
 use super::value::Range;
-use super::{MeshOperation, MeshOrigin, MeshSource, Named};
-use glam::{Vec2, Vec3};
-use luch_mesh::generate::{Generator, MAX_DIVISIONS, MAX_SUBDIVISIONS};
+use super::{MeshOperation, MeshOrigin, MeshSource, Named, WorkshopStep};
+use crate::kdl::Value;
+use luch_mesh::workshop::{Action, Arguments, Step, Unread, Verb, verbs};
 
-/// Where meshes come from.
-const ORIGINS: [&str; 8] = ["file", "sphere", "icosphere", "cuboid", "plane", "cylinder", "cone", "torus"];
-
-/// What can be done to a mesh; transforms as well.
+/// What can be done to a mesh besides verbs and transforms.
 const OPERATIONS: [&str; 4] = ["normals", "crease", "weld", "flip"];
-
-/// Most triangles that all generators of a scene may make together.
-const MOST_GENERATED: u64 = 1 << 24;
 
 impl Decoder<'_> {
     /// A definition at the top level.
@@ -35,20 +30,22 @@ impl Decoder<'_> {
     }
 
     fn mesh(&mut self, mut fields: Fields) -> Option<MeshSource> {
-        let origin = fields.take_one_of(self, &ORIGINS);
+        let origins: Vec<&'static str> = std::iter::once("file").chain(names(true)).collect();
+        let origin = fields.take_one_of(self, &origins);
         let lacks_origin = origin.is_none();
         let origin = origin.and_then(|field| match field.name {
             "file" => {
                 let argument = self.single(field, "the name of a file")?;
                 self.text("`file`", &argument).map(MeshOrigin::File)
             }
-            _ => self.generator(field).map(MeshOrigin::Generator),
+            _ => self.step(field).map(MeshOrigin::Form),
         });
-        let names: Vec<&'static str> = OPERATIONS.into_iter().chain(TRANSFORMS).collect();
-        let nodes = fields.take_nodes(self, &names);
+        let operations: Vec<&'static str> =
+            OPERATIONS.into_iter().chain(TRANSFORMS).chain(names(false)).collect();
+        let nodes = fields.take_nodes(self, &operations);
         let operations = nodes.into_iter().filter_map(|field| self.operation(field)).collect();
         if lacks_origin && fields.nothing_left() {
-            let help = super::source::advice("", ORIGINS, "write one of these in its block", "`");
+            let help = super::source::advice("", origins, "write one of these in its block", "`");
             self.problem(&fields.span, "`mesh` lacks its origin", Some(help));
         }
         let span = fields.span.clone();
@@ -60,8 +57,8 @@ impl Decoder<'_> {
         Some(match field.name {
             "normals" => {
                 let argument = self.single(field, "\"flat\" or \"smooth\"")?;
-                let words = [("flat", MeshOperation::FlatNormals), ("smooth", MeshOperation::SmoothNormals)];
-                self.word("`normals`", &argument, &words)?
+                let is_flat = self.word("`normals`", &argument, &[("flat", true), ("smooth", false)])?;
+                if is_flat { MeshOperation::FlatNormals } else { MeshOperation::SmoothNormals }
             }
             "crease" => {
                 let [degrees] = self.numbers(field, Range::between(0.0, 180.0))?;
@@ -75,112 +72,81 @@ impl Decoder<'_> {
                 field.fields().finish(self, "option");
                 MeshOperation::Flip
             }
-            _ => MeshOperation::Transform(self.transform(field)),
+            name if TRANSFORMS.contains(&name) => MeshOperation::Transform(self.transform(field)),
+            _ => MeshOperation::Workshop(self.step(field)?),
         })
     }
 
-    /// `sphere radius=1 segments=64 rings=32` and its like.
-    fn generator(&mut self, field: Field) -> Option<Generator> {
-        let kind = field.name;
+    /// A verb with its parameters: `torus radius=2 tube=0.5`, `twist angle=90 axis="y"`, `subdivide { levels 3 }`.
+    pub(super) fn step(&mut self, field: Field) -> Option<WorkshopStep> {
+        let verb: &'static Verb = verbs().find(|verb| verb.name == field.name)?;
         let mut fields = field.fields();
-        let f = &mut fields;
-        let generator = match kind {
-            "sphere" => Generator::Sphere {
-                radius: self.length(f, "radius", 1.0),
-                segments: self.pieces(f, "segments", 3, 64),
-                rings: self.pieces(f, "rings", 2, 32),
-            },
-            "icosphere" => Generator::Icosphere {
-                radius: self.length(f, "radius", 1.0),
-                subdivisions: self.whole_or(f, "subdivisions", 0, u64::from(MAX_SUBDIVISIONS), 3) as u32,
-            },
-            "cuboid" => Generator::Cuboid { size: self.size(f), divisions: self.divisions(f) },
-            "plane" => Generator::Plane {
-                size: self.side_lengths::<2>(f).map_or(Vec2::ONE, Vec2::from_array),
-                divisions: self.divisions(f),
-            },
-            "cylinder" => Generator::Cylinder {
-                radius: self.length(f, "radius", 1.0),
-                height: self.length(f, "height", 2.0),
-                segments: self.pieces(f, "segments", 3, 64),
-                stacks: self.pieces(f, "stacks", 1, 1),
-                capped: self.flag_or(f, "capped", true),
-            },
-            "cone" => Generator::Cone {
-                bottom_radius: self.length(f, "radius", 1.0),
-                top_radius: self.number_or(f, "top-radius", Range::NOT_NEGATIVE, 0.0),
-                height: self.length(f, "height", 2.0),
-                segments: self.pieces(f, "segments", 3, 64),
-                stacks: self.pieces(f, "stacks", 1, 1),
-                capped: self.flag_or(f, "capped", true),
-            },
-            _ => Generator::Torus {
-                major_radius: self.length(f, "radius", 1.0),
-                minor_radius: self.length(f, "tube", 0.25),
-                segments: self.pieces(f, "segments", 3, 96),
-                sides: self.pieces(f, "sides", 3, 48),
-            },
-        };
-        fields.finish(self, "option");
-        self.generated = self.generated.saturating_add(generator.triangle_count());
-        if self.generated > MOST_GENERATED {
-            let message =
-                format!("`{kind}` brings the generated triangles of the scene to {}", self.generated);
-            self.problem(&fields.span, message, Some(format!("at most {MOST_GENERATED} are made")));
+        let mut given = Vec::new();
+        let mut sound = true;
+        let first = verb.parameters.first();
+        let unnamed = fields.all_arguments();
+        if let (Some(parameter), false) = (first, unnamed.is_empty()) {
+            let text = self.joined(&unnamed);
+            sound &= self.accepts(verb, parameter.name, &text, &unnamed);
+            given.push((parameter.name.to_owned(), text));
+        } else if let Some(argument) = unnamed.first() {
+            let shown = self.quote(&argument.span);
+            self.problem(&argument.span, format!("`{}` has no use for the value {shown}", verb.name), None);
+            sound = false;
+        }
+        for parameter in verb.parameters {
+            let Some(field) = fields.take(self, parameter.name) else { continue };
+            let mut inner = field.fields();
+            let arguments = inner.all_arguments();
+            inner.finish(self, "option");
+            let text = self.joined(&arguments);
+            sound &= self.accepts(verb, parameter.name, &text, &arguments);
+            given.push((parameter.name.to_owned(), text));
+        }
+        let span = fields.span.clone();
+        fields.finish(self, "parameter");
+        // What is missing or said twice.
+        if sound && let Err(error) = Arguments::read(verb, &given, &mut Unread) {
+            self.problem(&span, error.to_string(), None);
             return None;
         }
-        Some(generator)
+        sound.then_some(WorkshopStep { span, step: Step { verb, given } })
     }
 
-    fn length(&mut self, fields: &mut Fields, name: &'static str, default: f32) -> f32 {
-        self.number_or(fields, name, Range::POSITIVE, default)
-    }
-
-    fn pieces(&mut self, fields: &mut Fields, name: &'static str, least: u64, default: u64) -> u32 {
-        self.whole_or(fields, name, least, u64::from(MAX_DIVISIONS), default) as u32
-    }
-
-    /// `size 1 2 3`, or one number for a cube.
-    fn size(&mut self, fields: &mut Fields) -> Vec3 {
-        self.side_lengths::<3>(fields).map_or(Vec3::ONE, Vec3::from_array)
-    }
-
-    /// One length for all sides, or one for each.
-    fn side_lengths<const N: usize>(&mut self, fields: &mut Fields) -> Option<[f32; N]> {
-        let mut inner = fields.take(self, "size")?.fields();
-        let arguments = inner.all_arguments();
-        let lengths = match arguments.as_slice() {
-            [one] => self.number("`size`", one, Range::POSITIVE).map(|side| [side; N]),
-            _ => self.array("`size`", &inner.span, &arguments, Range::POSITIVE),
-        };
-        inner.finish(self, "option");
-        lengths
-    }
-
-    /// One count for all sides, or one for each.
-    fn divisions<const N: usize>(&mut self, fields: &mut Fields) -> [u32; N] {
-        let Some(field) = fields.take(self, "divisions") else { return [1; N] };
-        let mut inner = field.fields();
-        let arguments = inner.all_arguments();
-        let most = u64::from(MAX_DIVISIONS);
-        let counts: Vec<u32> = arguments
+    /// The values of one parameter as one text.
+    fn joined(&mut self, arguments: &[Argument]) -> String {
+        let texts: Vec<String> = arguments
             .iter()
-            .filter_map(|argument| self.whole("`divisions`", argument, 1, most))
-            .map(|count| count as u32)
+            .map(|argument| match argument.value {
+                Value::Integer(number) => number.to_string(),
+                Value::Float(number) => number.to_string(),
+                Value::Text(text) => text.clone(),
+                Value::Bool(flag) => flag.to_string(),
+                Value::Null => "null".into(),
+            })
             .collect();
-        inner.finish(self, "option");
-        match (counts.as_slice(), arguments.len()) {
-            ([one], 1) => return [*one; N],
-            (several, _) => {
-                if let Ok(all) = <[u32; N]>::try_from(several) {
-                    return all;
-                }
-            }
-        }
-        if counts.len() == arguments.len() {
-            let message = format!("`divisions` has {} numbers, expected 1 or {N}", counts.len());
-            self.problem(&inner.span, message, None);
-        }
-        [1; N]
+        texts.join(",")
     }
+
+    /// Whether a parameter may be this; files are not read yet.
+    fn accepts(&mut self, verb: &Verb, name: &str, text: &str, arguments: &[Argument]) -> bool {
+        let Some(parameter) = verb.parameters.iter().find(|parameter| parameter.name == name) else {
+            return false;
+        };
+        if parameter.kind.read(text, &mut Unread).is_ok() {
+            return true;
+        }
+        if let (Some(first), Some(last)) = (arguments.first(), arguments.last()) {
+            let mut span = first.span.clone();
+            span.bytes.end = last.span.bytes.end;
+            let shown = self.quote(&span);
+            self.problem(&span, format!("`{name}` is {shown}, expected {}", parameter.kind.accepted()), None);
+        }
+        false
+    }
+}
+
+/// Names of the verbs that make meshes, or of those that change them.
+fn names(making: bool) -> impl Iterator<Item = &'static str> {
+    verbs().filter(move |verb| matches!(verb.action, Action::Make { .. }) == making).map(|verb| verb.name)
 }

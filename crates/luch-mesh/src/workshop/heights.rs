@@ -172,6 +172,25 @@ fn image(bytes: &[u8]) -> Result<Bitmap, WorkshopError> {
 }
 
 fn height_map(arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
+    covered(&imaged(arguments)?, arguments)
+}
+
+fn terrain(arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
+    covered(&grown(arguments)?, arguments)
+}
+
+/// The field that a verb of this group makes before it becomes triangles.
+pub(super) fn field(verb: &Verb, arguments: &Arguments) -> Result<HeightField, WorkshopError> {
+    match verb.name {
+        "height-map" => imaged(arguments),
+        "terrain" => grown(arguments),
+        other => {
+            Err(WorkshopError::new(format!("`{other}` makes no height field; `height-map` and `terrain` do")))
+        }
+    }
+}
+
+fn imaged(arguments: &Arguments) -> Result<HeightField, WorkshopError> {
     let bytes = arguments.file("file").unwrap_or_default();
     let given_size = arguments.number_if_given("size").map(|size| size as f32);
     let given_scale = arguments.number_if_given("scale");
@@ -212,10 +231,10 @@ fn height_map(arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
     if arguments.flag("cells") {
         field = field.cells().map_err(refused)?;
     }
-    finished(field, arguments)
+    blurred(field, arguments)
 }
 
-fn terrain(arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
+fn grown(arguments: &Arguments) -> Result<HeightField, WorkshopError> {
     let landform = match arguments.choice("form") {
         "ridges" => Landform::Ridges,
         "plasma" => Landform::Plasma,
@@ -232,18 +251,21 @@ fn terrain(arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
         octaves: arguments.count("octaves"),
         roughness: arguments.number("roughness"),
     };
-    finished(height_map::terrain(&wish).map_err(refused)?, arguments)
+    blurred(height_map::terrain(&wish).map_err(refused)?, arguments)
 }
 
-/// What both makers of fields end with: blur, reduction, body.
-fn finished(field: HeightField, arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
+fn blurred(field: HeightField, arguments: &Arguments) -> Result<HeightField, WorkshopError> {
     let blurred = field.blurred(arguments.number("blur"));
-    let field = blurred.map_err(|error| WorkshopError::of("blur", error.to_string()))?;
+    blurred.map_err(|error| WorkshopError::of("blur", error.to_string()))
+}
+
+/// What both makers of fields end with: reduction, body.
+fn covered(field: &HeightField, arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
     let (error, most_triangles) = (arguments.number_if_given("error"), arguments.count_if_given("triangles"));
     let sheet = if error.is_some() || most_triangles.is_some() {
-        height_map::reduced(&field, &Reduction { error: error.unwrap_or(0.0), most_triangles })
+        height_map::reduced(field, &Reduction { error: error.unwrap_or(0.0), most_triangles })
     } else {
-        height_map::sheet(&field)
+        height_map::sheet(field)
     };
     if sheet.triangles.is_empty() {
         return Err(WorkshopError::new("nothing but holes is left"));
@@ -251,7 +273,7 @@ fn finished(field: HeightField, arguments: &Arguments) -> Result<PolygonMesh, Wo
     let Some(thickness) = arguments.number_if_given("solid") else { return Ok(PolygonMesh::from(&sheet)) };
     let lowest = sheet.positions.iter().map(|p| p.y).fold(f32::INFINITY, f32::min);
     let base = (f64::from(lowest) - thickness) as f32;
-    let body = height_map::solid(&field, &sheet, base);
+    let body = height_map::solid(field, &sheet, base);
     body.map(|body| PolygonMesh::from(&body)).map_err(|error| WorkshopError::of("solid", error.to_string()))
 }
 

@@ -3,6 +3,7 @@
 use super::verb::Action;
 use super::{Arguments, Files, Kind, Verb, WorkshopError, find};
 use crate::PolygonMesh;
+use crate::height_map::HeightField;
 
 /// One verb with its arguments as they were typed.
 #[derive(Clone, Debug)]
@@ -46,6 +47,11 @@ impl Step {
         Ok(Self { verb, given })
     }
 
+    /// The height field that `height-map` and `terrain` make, before it becomes triangles: for those who trace it as it is.
+    pub fn height_field(&self, files: &mut dyn Files) -> Result<HeightField, WorkshopError> {
+        super::heights::field(self.verb, &Arguments::read(self.verb, &self.given, files)?)
+    }
+
     /// Does it to a mesh; a verb that makes one wants none.
     pub fn run(
         &self,
@@ -85,9 +91,17 @@ impl Pipeline {
         Ok(Self { steps })
     }
 
-    /// Does all steps.
+    /// Does all steps; the first makes a mesh.
     pub fn run(&self, files: &mut dyn Files) -> Result<PolygonMesh, WorkshopError> {
-        let mut mesh = None;
+        self.run_on(None, files)
+    }
+
+    /// Does all steps; the first changes the mesh, if there is one.
+    pub fn run_on(
+        &self,
+        mut mesh: Option<PolygonMesh>,
+        files: &mut dyn Files,
+    ) -> Result<PolygonMesh, WorkshopError> {
         for step in &self.steps {
             mesh = Some(step.run(mesh, files).map_err(|error| {
                 let message = format!("{}: {}", step.verb.name, error.message);

@@ -80,10 +80,11 @@ pub(super) const VERBS: &[Verb] = &[
         summary: "A cone: smooth side, sharp rim",
         parameters: &[
             Parameter::new("radius", LENGTH, "1", "radius of the base, in metres"),
+            Parameter::new("top-radius", LENGTH_OR_ZERO, "0", "radius of the upper end, in metres"),
             Parameter::new("height", LENGTH, "2", "length along y, in metres"),
             Parameter::new("segments", pieces(3), "64", "pieces around the axis"),
             Parameter::new("stacks", pieces(1), "1", "pieces along the axis"),
-            Parameter::new("capped", Kind::Flag, "true", "with a disc as base"),
+            Parameter::new("capped", Kind::Flag, "true", "with a disc at both ends"),
         ],
         example: "--segments 12",
         action: Action::Make { closed: true, run: cone },
@@ -185,7 +186,7 @@ fn cylinder(a: &Arguments) -> Result<PolygonMesh, WorkshopError> {
 fn cone(a: &Arguments) -> Result<PolygonMesh, WorkshopError> {
     made(Generator::Cone {
         bottom_radius: a.length("radius"),
-        top_radius: 0.0,
+        top_radius: a.length("top-radius"),
         height: a.length("height"),
         segments: a.count("segments"),
         stacks: a.count("stacks"),
