@@ -3,6 +3,7 @@
 use glam::{Affine3A, Vec2, Vec3, vec3};
 use luch_bvh::{InstanceHit, Ray};
 use luch_formula::Formula;
+use luch_image::Rgb;
 use luch_mesh::height_map::{self, HeightField, Terrain};
 use luch_mesh::{TriangleMesh, generate};
 use luch_render::{SurfacePoint, World};
@@ -11,7 +12,7 @@ use std::sync::Arc;
 
 fn world(shape: Shape) -> World {
     let mut scene = Scene::default();
-    let material = scene.add_material(Material::default());
+    let material = scene.add_material(Material::diffuse(Rgb::gray(0.5)));
     let shape = scene.add_shape(shape);
     scene.add_instance(shape, material, Affine3A::IDENTITY);
     World::build(scene).expect("a sound scene")
