@@ -135,7 +135,7 @@ pub(super) const VERBS: &[Verb] = &[
         action: Action::Make { closed: true, run: terrain },
     },
     Verb {
-        name: "displace",
+        name: "displace-by-image",
         summary: "Move vertices along their normals by an image, read at their uvs",
         parameters: &[
             Parameter::required("file", Kind::File, "the image"),

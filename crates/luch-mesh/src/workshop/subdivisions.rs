@@ -35,7 +35,7 @@ pub(super) const VERBS: &[Verb] = &[
         action: Action::Change { keeps: KEEPS, run: subdivide },
     },
     Verb {
-        name: "crease",
+        name: "crease-edges",
         summary: "Set how many levels of subdivision edges stay sharp",
         parameters: &[
             Parameter::new(
