@@ -26,6 +26,6 @@ pub(super) fn on_sphere(column: u32, columns: u32, row: u32, rows: u32) -> DVec3
 }
 
 /// The point at `radius` from the y axis in the direction `turn`, at height `y`. Turns run from +x over −z.
-pub(super) fn around(turn: DVec2, radius: f64, y: f64) -> DVec3 {
+pub(crate) fn around(turn: DVec2, radius: f64, y: f64) -> DVec3 {
     DVec3::new(turn.x * radius, y, -turn.y * radius)
 }

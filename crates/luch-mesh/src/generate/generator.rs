@@ -261,7 +261,7 @@ pub enum Generator {
     Teapot {
         /// Times the original numbers.
         size: f32,
-        /// Pieces of each of its 32 patches along each side, at most [`super::MAX_TEAPOT_DIVISIONS`].
+        /// Pieces of each of its 32 patches along each side, from 2 to [`super::MAX_TEAPOT_DIVISIONS`].
         divisions: u32,
     },
 }

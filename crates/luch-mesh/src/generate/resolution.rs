@@ -1,6 +1,7 @@
 //! Counts: how much a generator makes, and the same shape finer.
 
 use super::knot::spring_pieces;
+use super::teapot::LEAST_TEAPOT_DIVISIONS;
 use super::{Generator, MAX_DIVISIONS, MAX_ROUNDING, MAX_SUBDIVISIONS, MAX_TEAPOT_DIVISIONS};
 
 impl Generator {
@@ -47,7 +48,7 @@ impl Generator {
                 2 * count(sides, 3) * (u64::from(spring_pieces(turns, segments)) + 1)
             }
             Self::Teapot { divisions, .. } => {
-                let divisions = u64::from(divisions.clamp(1, MAX_TEAPOT_DIVISIONS));
+                let divisions = u64::from(divisions.clamp(LEAST_TEAPOT_DIVISIONS, MAX_TEAPOT_DIVISIONS));
                 64 * divisions * divisions
             }
         }

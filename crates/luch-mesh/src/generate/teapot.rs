@@ -9,9 +9,12 @@ use crate::PolygonMesh;
 /// The most pieces of a patch along each side.
 pub const MAX_TEAPOT_DIVISIONS: u32 = 256;
 
+/// The fewest: undivided, both halves of handle and spout would be flat and lie on one another.
+pub(super) const LEAST_TEAPOT_DIVISIONS: u32 = 2;
+
 /// See [`super::Generator::Teapot`].
 pub(super) fn teapot(size: f32, divisions: u32) -> PolygonMesh {
-    let divisions = divisions.clamp(1, MAX_TEAPOT_DIVISIONS);
+    let divisions = divisions.clamp(LEAST_TEAPOT_DIVISIONS, MAX_TEAPOT_DIVISIONS);
     let mut assembly = Assembly::default();
     for (number, profile) in PROFILES.iter().enumerate() {
         if number == FIRST_OF_LID {

@@ -3,6 +3,8 @@
 mod curious;
 mod flat;
 mod flat_sided;
+mod lettering;
+mod outlined;
 mod round;
 
 use std::ops::RangeInclusive;
@@ -15,7 +17,8 @@ use glam::Vec3;
 /// The verbs of this group.
 pub(super) const VERBS: &[Verb] = &joined::<{ count() }>();
 
-const GROUPS: &[&[Verb]] = &[round::VERBS, flat_sided::VERBS, flat::VERBS, curious::VERBS];
+const GROUPS: &[&[Verb]] =
+    &[round::VERBS, flat_sided::VERBS, flat::VERBS, curious::VERBS, outlined::VERBS, lettering::VERBS];
 
 const fn count() -> usize {
     let (mut count, mut group) = (0, 0);

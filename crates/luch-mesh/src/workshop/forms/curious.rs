@@ -96,7 +96,7 @@ pub(super) const VERBS: &[Verb] = &[
             Parameter::new("size", LENGTH, "1", "times the original numbers, which make it 3.15 high"),
             Parameter::new(
                 "divisions",
-                Kind::Count { least: 1, most: MAX_TEAPOT_DIVISIONS as u64 },
+                Kind::Count { least: 2, most: MAX_TEAPOT_DIVISIONS as u64 },
                 "10",
                 "pieces of each patch along each side",
             ),
