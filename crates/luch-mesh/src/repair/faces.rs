@@ -1,6 +1,6 @@
 //! Choosing, turning and joining faces, and renumbering what they use.
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
 use crate::PolygonMesh;
 use crate::polygon_mesh::{CornerAttribute, HalfEdges};
@@ -118,8 +118,7 @@ pub fn remove_unused(mesh: &PolygonMesh) -> Repaired {
     let mut mesh = super::sound(mesh).mesh;
     let before = mesh.positions.len();
     let numbers = numbering(&mesh.corners, before);
-    let parallel = |values: &[Vec3]| -> Vec<Vec3> { kept(values, &numbers) };
-    mesh.positions = parallel(&mesh.positions);
+    mesh.positions = kept(&mesh.positions, &numbers);
     fn own<T: Copy>(attribute: &mut CornerAttribute<T>, numbers: &[Option<u32>]) {
         if attribute.corners.is_empty() {
             attribute.values = kept(&attribute.values, numbers);

@@ -186,7 +186,7 @@ impl Maker<'_> {
         let first = end_of(self.topology.next(corners[0]));
         let last = end_of(self.topology.previous(corners[corners.len() - 1]));
         let normal = if matches!(feature, Feature::Crease(_)) {
-            (first - last).cross(self.into_side(own, corners, first, last))
+            (first - last).cross(self.toward_side(own, corners, first, last))
         } else {
             first.cross(last)
         };
@@ -194,7 +194,7 @@ impl Maker<'_> {
     }
 
     /// The tangent away from a curve; all places relative to the vertex, whose own weight is therefore not needed.
-    fn into_side(&self, own: DVec3, corners: &[u32], first: DVec3, last: DVec3) -> DVec3 {
+    fn toward_side(&self, own: DVec3, corners: &[u32], first: DVec3, last: DVec3) -> DVec3 {
         let count = corners.len();
         if count == 1 {
             return first + last;
