@@ -151,9 +151,14 @@ mod tests {
             let mesh = generator.mesh();
             let split = unify::split_positions(&mesh);
             let welded = weld_exact(&split);
-            assert_eq!(welded.mesh.positions.len(), mesh.positions.len(), "{generator:?}");
-            assert_eq!(welded.merged, split.positions.len() - mesh.positions.len());
+            // The teapot has one place twice, where the handle touches the body.
+            let touching = usize::from(matches!(generator, generate::Generator::Teapot { .. }));
+            assert_eq!(welded.mesh.positions.len() + touching, mesh.positions.len(), "{generator:?}");
+            assert_eq!(welded.merged, split.positions.len() + touching - mesh.positions.len());
             assert_eq!(welded.mesh.validate(), []);
+            if touching > 0 {
+                continue;
+            }
             assert_eq!(measure::closedness(&welded.mesh), measure::closedness(&mesh));
             for t in 0..mesh.triangles.len() {
                 assert_eq!(welded.mesh.corners(t), mesh.corners(t));

@@ -299,13 +299,14 @@ fn verbs_read_images_and_grids() {
         ("height-map a.asc --crop 1,1", grid, "four numbers"),
         ("height-map a.asc --crop -5,1,1e30,2", grid, "does not lie in the field"),
         ("height-map a.asc --blur 2000", grid, "from 0 to 1000"),
-        ("cuboid | displace a.png", grid, "file"),
+        ("cuboid | displace-by-image a.png", grid, "file"),
     ] {
         let error = run(line, file).unwrap_err().to_string();
         assert!(error.contains(message), "{line}: {error}");
     }
     let displaced =
-        run("terrain --columns 9 --rows 9 --relief 0 | displace a.png --scale 1 --middle 0", &png).unwrap();
+        run("terrain --columns 9 --rows 9 --relief 0 | displace-by-image a.png --scale 1 --middle 0", &png)
+            .unwrap();
     assert!(displaced.positions.iter().any(|p| p.y > 0.2));
 }
 

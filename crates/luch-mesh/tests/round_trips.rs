@@ -93,6 +93,19 @@ fn looks(mesh: &TriangleMesh, triangle: usize) -> [[u32; 3]; 3] {
     corners
 }
 
+/// Indices of values that are those of the positions are not written down twice.
+fn shared(mut mesh: PolygonMesh) -> PolygonMesh {
+    for uvs in &mut mesh.uv_sets {
+        if uvs.corners == mesh.corners {
+            uvs.corners.clear();
+        }
+    }
+    if mesh.normals.corners == mesh.corners {
+        mesh.normals.corners.clear();
+    }
+    mesh
+}
+
 #[test]
 fn every_generator_through_every_format() {
     for generator in Generator::examples() {
@@ -122,7 +135,7 @@ fn every_generator_through_every_format() {
                     );
                 }
                 if format == Format::Obj {
-                    assert_eq!(again.mesh, mesh, "{generator:?}");
+                    assert_eq!(shared(again.mesh), shared(mesh.clone()), "{generator:?}");
                 }
             }
         }

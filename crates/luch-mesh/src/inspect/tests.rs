@@ -22,12 +22,10 @@ fn agrees_with_the_plain_measures_on_everything() {
             assert!((report.area - measure::area(&mesh)).abs() <= 1e-12 * report.area);
             assert!((report.volume - measure::volume(&mesh)).abs() <= 1e-12 * report.volume.abs());
             let found = report.self_intersections.unwrap();
-            assert_eq!(
-                (found.triangles, found.is_lower_bound),
-                (0, false),
-                "{generator:?} {:?}",
-                found.first
-            );
+            assert!(!found.is_lower_bound);
+            // In space a Klein bottle crosses itself.
+            let crosses = matches!(generator, Generator::KleinBottle { .. });
+            assert_eq!(found.triangles > 0, crosses, "{generator:?} {:?}", found.first);
             assert_eq!(
                 report.aspects.iter().map(|class| class.count).sum::<u64>(),
                 mesh.triangles.len() as u64
