@@ -7,7 +7,7 @@ use luch_image::Rgb;
 use luch_mesh::height_map::{self, HeightField, Terrain};
 use luch_mesh::{TriangleMesh, generate};
 use luch_render::{SurfacePoint, World};
-use luch_scene::{Frustum, Implicit, Material, Scene, Shape, Traced};
+use luch_scene::{Camera, Frustum, Implicit, Material, Scene, Shape, Traced};
 use std::sync::Arc;
 
 fn world(shape: Shape) -> World {
@@ -15,6 +15,7 @@ fn world(shape: Shape) -> World {
     let material = scene.add_material(Material::diffuse(Rgb::gray(0.5)));
     let shape = scene.add_shape(shape);
     scene.add_instance(shape, material, Affine3A::IDENTITY);
+    scene.add_camera(Camera::looking_at(Vec3::Z * 9.0, Vec3::ZERO, Vec3::Y, 1.0));
     World::build(scene).expect("a sound scene")
 }
 
