@@ -1,12 +1,15 @@
 //! Building a changed mesh from an old one: corner values are mixed from those of old corners, creases follow.
 
-use std::collections::{BTreeMap, HashMap};
+mod lane;
 
-use glam::{DVec4, Vec2, Vec3, Vec4};
+use std::collections::BTreeMap;
 
-use super::geometry::unit_normal;
+use glam::{Vec2, Vec3, Vec4};
+
+use super::geometry::{area_vector_of, unit_normal};
 use crate::PolygonMesh;
-use crate::polygon_mesh::{CornerAttribute, Crease, Hole, SharpVertex};
+use crate::polygon_mesh::{Crease, Hole, SharpVertex};
+use lane::Lane;
 
 /// Where a vertex comes from; creases follow it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -171,10 +174,31 @@ impl<'a> Builder<'a> {
     }
 
     /// Adds a face with slot and group of a face of the source, unless another slot is given.
+    ///
+    /// One without area becomes triangles: as a whole it would be lost when triangles are made, and its neighbours
+    /// would stand open.
     pub(super) fn face(&mut self, like: usize, borders: &[Vec<NewCorner>], shade: Shade, slot: Option<u16>) {
-        if borders.first().is_none_or(|outer| outer.len() < 3) {
-            return;
+        match borders {
+            [outer] if outer.len() > 3 && self.has_no_area(outer) => {
+                for pair in outer[1..].windows(2) {
+                    let triangle = vec![outer[0].clone(), pair[0].clone(), pair[1].clone()];
+                    self.whole_face(like, &[triangle], shade, slot);
+                }
+            }
+            [outer, ..] if outer.len() > 2 => self.whole_face(like, borders, shade, slot),
+            _ => {}
         }
+    }
+
+    fn has_no_area(&self, border: &[NewCorner]) -> bool {
+        let places = || border.iter().map(|corner| self.place(corner.vertex));
+        let first = self.place(border[0].vertex);
+        let size = places().map(|place| place.distance_squared(first)).fold(0.0, f64::max);
+        // Single precision makes this much area of a line.
+        area_vector_of(places()).length() <= 1e-6 * size
+    }
+
+    fn whole_face(&mut self, like: usize, borders: &[Vec<NewCorner>], shade: Shade, slot: Option<u16>) {
         for (number, border) in borders.iter().enumerate() {
             if number > 0 {
                 let (face, start) = (self.mesh.face_ends.len() as u32, self.mesh.corners.len() as u32);
@@ -327,135 +351,4 @@ fn drop_orphans(source: &PolygonMesh, mesh: &mut PolygonMesh) {
     }
     mesh.sharp_vertices.retain(|sharp| keep[sharp.vertex as usize]);
     mesh.sharp_vertices.iter_mut().for_each(|sharp| sharp.vertex = numbers[sharp.vertex as usize]);
-}
-
-/// One attribute in the making.
-struct Lane<'a, T> {
-    source: &'a CornerAttribute<T>,
-    out: CornerAttribute<T>,
-    /// The values that were mixed, by their bits.
-    known: HashMap<[u32; 4], u32>,
-}
-
-/// Values that can be mixed.
-trait Mixable: Copy {
-    fn widen(self) -> DVec4;
-    fn narrow(sum: DVec4) -> Self;
-}
-
-impl Mixable for Vec2 {
-    fn widen(self) -> DVec4 {
-        self.as_dvec2().extend(0.0).extend(0.0)
-    }
-    fn narrow(sum: DVec4) -> Self {
-        sum.as_vec4().truncate().truncate()
-    }
-}
-
-impl Mixable for Vec3 {
-    fn widen(self) -> DVec4 {
-        self.as_dvec3().extend(0.0)
-    }
-    fn narrow(sum: DVec4) -> Self {
-        // These are normals.
-        sum.truncate().try_normalize().map_or(Vec3::Z, |unit| unit.as_vec3())
-    }
-}
-
-impl Mixable for Vec4 {
-    fn widen(self) -> DVec4 {
-        self.as_dvec4()
-    }
-    fn narrow(sum: DVec4) -> Self {
-        sum.as_vec4()
-    }
-}
-
-impl<'a, T: Mixable> Lane<'a, T> {
-    fn new(source: &'a CornerAttribute<T>) -> Self {
-        let out = CornerAttribute {
-            values: source.values.clone(),
-            corners: Vec::with_capacity(source.corners.len()),
-        };
-        Self { source, out, known: HashMap::new() }
-    }
-
-    fn is_present(&self) -> bool {
-        !self.source.is_empty()
-    }
-
-    fn copy(&mut self, corners: std::ops::Range<usize>) {
-        if self.is_present() {
-            self.out.corners.extend_from_slice(&self.source.corners[corners]);
-        }
-    }
-
-    fn value(&self, corner: u32) -> DVec4 {
-        self.source.values[self.source.corners[corner as usize] as usize].widen()
-    }
-
-    fn mixed(&self, mix: &Mix) -> DVec4 {
-        match mix {
-            Mix::One(corner) => self.value(*corner),
-            Mix::Many(parts) => parts.iter().map(|&(corner, weight)| self.value(corner) * weight).sum(),
-        }
-    }
-
-    /// `later` leaves the place open for a value that is known at the end.
-    fn push(&mut self, corner: &NewCorner, later: bool) {
-        if !self.is_present() {
-            return;
-        }
-        let number = match &corner.mix {
-            _ if later => 0,
-            Mix::One(corner) => self.source.corners[*corner as usize],
-            mix => self.number(T::narrow(self.mixed(mix))),
-        };
-        self.out.corners.push(number);
-    }
-
-    fn number(&mut self, value: T) -> u32 {
-        let key = value.widen().as_vec4().to_array().map(f32::to_bits);
-        let values = &mut self.out.values;
-        *self.known.entry(key).or_insert_with(|| {
-            values.push(value);
-            values.len() as u32 - 1
-        })
-    }
-
-    /// The attribute without the values that no corner names.
-    fn finish(mut self) -> CornerAttribute<T> {
-        const UNUSED: u32 = u32::MAX;
-        let mut numbers = vec![UNUSED; self.out.values.len()];
-        self.out.corners.iter().for_each(|&number| numbers[number as usize] = 0);
-        let mut count = 0;
-        for number in numbers.iter_mut().filter(|number| **number != UNUSED) {
-            *number = count;
-            count += 1;
-        }
-        let mut flags = numbers.iter();
-        self.out.values.retain(|_| flags.next().is_some_and(|&number| number != UNUSED));
-        self.out.corners.iter_mut().for_each(|number| *number = numbers[*number as usize]);
-        self.out
-    }
-}
-
-impl Lane<'_, Vec2> {
-    fn push_uv(&mut self, corner: &NewCorner) {
-        if !self.is_present() {
-            return;
-        }
-        let uv = match corner.uv {
-            Uv::Mixed => return self.push(corner, false),
-            Uv::At(uv) => uv,
-            Uv::Unfolded { from, to, ratio } => {
-                let way = self.value(to) - self.value(from);
-                let aside = DVec4::new(way.y, -way.x, 0.0, 0.0) * ratio;
-                Vec2::narrow(self.mixed(&corner.mix) + aside)
-            }
-        };
-        let uv = if uv.is_finite() { uv } else { Vec2::ZERO };
-        let number = self.number(uv);
-        self.out.corners.push(number);
-    }
 }

@@ -72,7 +72,8 @@ pub struct Cut {
 /// Vertices within a millionth of the mesh's size count as on the plane, and edges are cut at one point for all their faces, so
 /// parts fit together. A face that lies in the plane goes with the body it bounds. Faces that are not flat, or that the plane
 /// meets in several places, become triangles first. Values at the cut are those of the place; caps have uvs in metres along
-/// the plane. Caps may have holes. With caps a closed body gives closed bodies, if all its faces are marked.
+/// the plane. Caps may have holes. With caps a closed body gives closed bodies, if all its faces are marked;
+/// a part that touches itself along an edge in the plane has four faces there.
 pub fn cut(mesh: &PolygonMesh, faces: &[bool], cut: &Cut) -> Result<PolygonMesh, EditError> {
     if cut.keep == Side::Both && cut.cap {
         let above = self::cut(mesh, faces, &Cut { keep: Side::Above, ..*cut })?;

@@ -58,14 +58,14 @@ fn gathered(mesh: &PolygonMesh, key: impl Fn(u32, usize) -> [u32; 2]) -> CornerA
     let mut numbers: HashMap<[u32; 2], u32> = HashMap::new();
     let mut sums: Vec<DVec3> = Vec::new();
     let mut corners = Vec::with_capacity(mesh.corners.len());
-    for corner in 0..mesh.corners.len() {
+    for (corner, &before) in previous.iter().enumerate() {
         let face = half_edges.face(corner as u32);
         let number = *numbers.entry(key(face, corner)).or_insert_with(|| {
             sums.push(DVec3::ZERO);
             sums.len() as u32 - 1
         });
-        let neighbours = [previous[corner], half_edges.next(corner as u32)];
-        let [before, after] = neighbours.map(|corner| corner_place(mesh, corner as usize));
+        let [before, after] =
+            [before, half_edges.next(corner as u32)].map(|corner| corner_place(mesh, corner as usize));
         let part = normals[face as usize] * corner_angle(before, corner_place(mesh, corner), after);
         if part.is_finite() {
             sums[number as usize] += part;
@@ -98,10 +98,10 @@ pub fn vertex_normals(mesh: &PolygonMesh) -> Vec<DVec3> {
     let previous = previous_corners(&half_edges, mesh.corners.len());
     let normals = unit_normals(mesh);
     let mut sums = vec![(DVec3::ZERO, 0.0); mesh.positions.len()];
-    for corner in 0..mesh.corners.len() {
+    for (corner, &before) in previous.iter().enumerate() {
         let normal = normals[half_edges.face(corner as u32) as usize];
-        let neighbours = [previous[corner], half_edges.next(corner as u32)];
-        let [before, after] = neighbours.map(|corner| corner_place(mesh, corner as usize));
+        let [before, after] =
+            [before, half_edges.next(corner as u32)].map(|corner| corner_place(mesh, corner as usize));
         let angle = corner_angle(before, corner_place(mesh, corner), after);
         if normal != DVec3::ZERO && angle.is_finite() {
             let (sum, weight) = &mut sums[mesh.corners[corner] as usize];

@@ -61,8 +61,9 @@ impl Cuts {
     }
 }
 
-/// Puts `count` vertices on each of the given edges, evenly spaced. The form stays, a closed mesh stays closed.
+/// Puts `count` vertices on each of the given edges, evenly spaced. The form stays, and a closed mesh stays closed.
 ///
+/// Triangles made of it may not be: two faces with the same straight corners between them may both be cut there.
 /// `edges` are rising, lower end first; those that no face has are left out.
 pub fn split_edges(mesh: &PolygonMesh, edges: &[[u32; 2]], count: u32) -> Result<PolygonMesh, EditError> {
     let mesh = &*prepared(mesh);

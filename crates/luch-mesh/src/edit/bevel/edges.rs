@@ -187,8 +187,8 @@ impl Plan {
         }
     }
 
-    /// The end of a single cut inside the surface: both sides run along the next sharp edges, and the vertex moves to the middle of
-    /// the end.
+    /// The end of a single cut inside the surface: both sides run along the next sharp edges, and the vertex moves
+    /// to the middle between them.
     fn add_end(&mut self, around: &Surroundings, normals: &[DVec3], sector: &[u32]) {
         let vertex = around.vertex(sector[0]);
         let normal = |corner: u32| normals[around.half_edges.face(corner) as usize];
@@ -207,14 +207,16 @@ impl Plan {
         let (left, right) = (self.point(vertex, left_way), self.point(vertex, right_way));
         left_part.iter().for_each(|&corner| self.of_corner[corner as usize] = vec![left]);
         right_part.iter().for_each(|&corner| self.of_corner[corner as usize] = vec![right]);
-        if let &[only] = inner {
+        // Around more than half a turn the vertex is the tip of the new face and stays; else it would fold over.
+        let is_tip = angles(around, inner) >= PI;
+        if let (&[only], false) = (inner, is_tip) {
             self.of_corner[only as usize] = vec![right, left];
             return;
         }
-        let middle = self.point(vertex, (left_way + right_way) / 2.0);
+        let middle = self.point(vertex, if is_tip { DVec3::ZERO } else { (left_way + right_way) / 2.0 });
         inner.iter().for_each(|&corner| self.of_corner[corner as usize] = vec![middle]);
-        self.of_corner[inner[0] as usize] = vec![middle, left];
-        self.of_corner[inner[inner.len() - 1] as usize] = vec![right, middle];
+        self.of_corner[inner[0] as usize].push(left);
+        self.of_corner[inner[inner.len() - 1] as usize].insert(0, right);
         self.middles[sector[0] as usize] = Some(middle);
     }
 

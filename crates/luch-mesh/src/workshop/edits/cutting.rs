@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{SELECT, SOUND, UVS, faces, refused};
+use super::{SELECT, UVS, faces, refused};
 use crate::PolygonMesh;
 use crate::edit::{self, Cut, Plane, Side, Symmetry};
 use crate::workshop::{Action, Arguments, Kind, Parameter, Verb, WorkshopError};
@@ -62,7 +62,7 @@ pub(super) const SLICE: Verb = Verb {
         CAP_SLOT,
     ],
     example: "--layers 3 --axis 0.1,1,0.2",
-    action: Action::Change { keeps: SOUND, run: slice },
+    action: Action::Change { keeps: UVS, run: slice },
 };
 
 fn slice(mesh: PolygonMesh, arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {

@@ -226,7 +226,7 @@ fn lattice(mesh: PolygonMesh, arguments: &Arguments) -> Result<PolygonMesh, Work
     let [low, high] = edit::vertex_bounds(&mesh, &marked);
     let mut lattice = Lattice::new(low, high, counts).map_err(of("points"))?;
     let moves = arguments.numbers("move");
-    if moves.is_empty() || moves.len() % 6 != 0 {
+    if moves.is_empty() || !moves.len().is_multiple_of(6) {
         return Err(WorkshopError::of("move", "needs six numbers for each point"));
     }
     for point in moves.chunks_exact(6) {

@@ -13,7 +13,7 @@ pub(super) const SPLIT: Verb = Verb {
         SELECT,
     ],
     example: "--cuts 2",
-    action: Action::Change { keeps: Keeps { faces: true, ..SOUND_WITH_CREASES }, run: split },
+    action: Action::Change { keeps: Keeps { creases: true, faces: true, ..UVS }, run: split },
 };
 
 fn split(mesh: PolygonMesh, arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
