@@ -5,6 +5,7 @@ mod compare;
 mod errors;
 mod interrupt;
 mod merge;
+mod mesh;
 mod outputs;
 mod parameters;
 mod reproduce;

@@ -28,9 +28,12 @@ impl Quadric {
         self.normals.clear();
     }
 
-    /// The point within the box from `low` to `high` that is nearest to all planes; where they leave a choice, near the mean of
-    /// the points.
+    /// The point that is nearest to all planes, not farther outside the box from `low` to `high` than half its side; where they
+    /// leave a choice, near the mean of the points.
     pub(super) fn solve(&self, low: DVec3, high: DVec3) -> DVec3 {
+        // A sharp edge may pass a cell by that sees both its sides: held inside, it would be cut off.
+        let room = (high - low) * 0.5;
+        let (low, high) = (low - room, high + room);
         let mean = self.points.iter().sum::<DVec3>() / self.points.len().max(1) as f64;
         let mut system = System { mean, matrix: DMat3::ZERO, right: DVec3::ZERO };
         for (point, normal) in self.points.iter().zip(&self.normals) {

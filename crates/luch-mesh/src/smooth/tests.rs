@@ -70,8 +70,12 @@ fn remeshed_edges_have_the_wanted_length() {
         let good = lengths.iter().filter(|l| (0.6..1.5).contains(&(**l / length))).count();
         assert!(good * 100 > lengths.len() * 90, "{generator:?}: {good} of {}", lengths.len());
         let ratio = measure::area(&even) / measure::area(&mesh);
-        // Tubes of a Klein bottle are as thin as a few edges are long: chords lose some of their area.
-        let least = if matches!(generator, Generator::KleinBottle { .. }) { 0.95 } else { 0.97 };
+        // Thin tubes are a few edges around: chords lose some of their area. Five around lose 1 − 5/π · sin(π/5) = 6.5 %.
+        let is_thin = matches!(
+            generator,
+            Generator::KleinBottle { .. } | Generator::TorusKnot { .. } | Generator::Spring { .. }
+        );
+        let least = if is_thin { 0.935 } else { 0.97 };
         assert!((least..1.01).contains(&ratio), "{generator:?}: {ratio}");
     }
 }
