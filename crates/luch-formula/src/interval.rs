@@ -1,7 +1,7 @@
 //! Ranges of numbers that hold every value a calculation can take.
 //!
 //! Sound in both senses: a range holds the true values of the function, and the numbers that the evaluators compute for it.
-//! Sums, products, quotients and roots are rounded outward by one unit of the last place; rounding is monotone, so computed
+//! Sums, products, quotients and roots are rounded outward by one or two units of the last place; rounding is monotone, so computed
 //! numbers cannot leave the range either. Functions of the mathematics library get more room, see [`functions`].
 
 mod binary;

@@ -77,3 +77,8 @@ pub use interval::{Interval, IntervalDerivative};
 pub use root::{FirstRoot, RootFinder, first_root};
 pub use simd::Level;
 pub use tape::{Choices, Evaluator, Tape, TapeError, Traced};
+
+/// The page of the crate is run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

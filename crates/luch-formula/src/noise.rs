@@ -34,30 +34,26 @@ fn hash(x: u32, y: u32, z: u32) -> u32 {
     bits ^ bits >> 15
 }
 
-/// A whole coordinate, wrapped into 32 bits.
+/// The lowest 32 bits of a whole coordinate: adding 1.5 · 2⁵² shifts them to the end of the number's bits. Beyond 2⁵¹ they are
+/// some bits, the same everywhere.
 #[inline(always)]
 fn whole(floor: f64) -> u32 {
-    const PERIOD: f64 = 4_294_967_296.0;
-    (floor - PERIOD * (floor / PERIOD).floor()) as u32
+    const SHIFT: f64 = 6_755_399_441_055_744.0;
+    (floor + SHIFT).to_bits() as u32
 }
 
 /// The direction at a whole point: one coordinate 0, the others ±1.
 #[inline(always)]
 fn direction(x: u32, y: u32, z: u32) -> [f64; 3] {
     let bits = hash(x, y, z);
-    // The upper bits choose the axis, evenly to one part in 2²⁸.
-    let axis = ((u64::from(bits >> 2) * 3) >> 30) as u32;
+    // The upper half chooses the axis, evenly to one part in 2¹⁶.
+    let axis = ((bits >> 16) * 3) >> 16;
     let first = if bits & 1 == 0 { 1.0 } else { -1.0 };
     let second = if bits & 2 == 0 { 1.0 } else { -1.0 };
+    let middle = if axis == 0 { first } else { second };
     [
         if axis == 0 { 0.0 } else { first },
-        if axis == 1 {
-            0.0
-        } else if axis == 0 {
-            first
-        } else {
-            second
-        },
+        if axis == 1 { 0.0 } else { middle },
         if axis == 2 { 0.0 } else { second },
     ]
 }
@@ -73,34 +69,83 @@ fn blend_slope(t: f64) -> f64 {
     30.0 * (product * product)
 }
 
+/// What the corners of a cell need to know about one axis.
+#[derive(Clone, Copy)]
+pub(crate) struct Axis {
+    /// The lattice coordinate below.
+    pub(crate) low: u32,
+    /// How far above it the point is, 0 to 1.
+    pub(crate) t: f64,
+    /// The weight of the upper end, and its derivative.
+    pub(crate) weight: f64,
+    pub(crate) slope: f64,
+}
+
+impl Axis {
+    #[inline(always)]
+    pub(crate) fn new(coordinate: f64) -> Self {
+        let floor = coordinate.floor();
+        let t = coordinate - floor;
+        Self { low: whole(floor), t, weight: blend(t), slope: blend_slope(t) }
+    }
+
+    /// The axis as its lower or upper end sees it.
+    #[inline(always)]
+    fn end(&self, upper: bool) -> End {
+        if upper {
+            End {
+                place: self.low.wrapping_add(1),
+                offset: self.t - 1.0,
+                weight: self.weight,
+                slope: self.slope,
+            }
+        } else {
+            End { place: self.low, offset: self.t, weight: 1.0 - self.weight, slope: -self.slope }
+        }
+    }
+}
+
+struct End {
+    place: u32,
+    offset: f64,
+    weight: f64,
+    slope: f64,
+}
+
+/// What the corner with the given number adds: bit 0 is set on the upper end of x, bit 1 of y, bit 2 of z.
+#[inline(always)]
+pub(crate) fn corner<const NUMBER: u32>(x: Axis, y: Axis, z: Axis) -> Noise {
+    let [x, y, z] = [x.end(NUMBER & 1 != 0), y.end(NUMBER & 2 != 0), z.end(NUMBER & 4 != 0)];
+    let [along_x, along_y, along_z] = direction(x.place, y.place, z.place);
+    let dot = along_x * x.offset + along_y * y.offset + along_z * z.offset;
+    let weight = x.weight * y.weight * z.weight;
+    Noise {
+        value: weight * dot,
+        gradient: [
+            weight * along_x + x.slope * y.weight * z.weight * dot,
+            weight * along_y + y.slope * x.weight * z.weight * dot,
+            weight * along_z + z.slope * x.weight * y.weight * dot,
+        ],
+    }
+}
+
 /// The noise at a point. Undefined where a coordinate is not finite.
 #[inline(always)]
 pub(crate) fn noise(x: f64, y: f64, z: f64) -> Noise {
-    let floor = [x.floor(), y.floor(), z.floor()];
-    let t = [x - floor[0], y - floor[1], z - floor[2]];
-    let low = floor.map(whole);
-    let high = low.map(|coordinate| coordinate.wrapping_add(1));
-    let weight = t.map(blend);
-    let slope = t.map(blend_slope);
-    let mut result = Noise { value: 0.0, gradient: [0.0; 3] };
-    for corner in 0..8_usize {
-        let up = [corner & 1, corner >> 1 & 1, corner >> 2];
-        let pick = |axis: usize| if up[axis] == 1 { high[axis] } else { low[axis] };
-        let direction = direction(pick(0), pick(1), pick(2));
-        let mut w = [0.0; 3];
-        let mut s = [0.0; 3];
-        let mut dot = 0.0;
-        for axis in 0..3 {
-            let upper = up[axis] == 1;
-            w[axis] = if upper { weight[axis] } else { 1.0 - weight[axis] };
-            s[axis] = if upper { slope[axis] } else { -slope[axis] };
-            dot += direction[axis] * (t[axis] - if upper { 1.0 } else { 0.0 });
+    let [x, y, z] = [x, y, z].map(Axis::new);
+    let mut sum = corner::<0>(x, y, z);
+    let mut add = |part: Noise| {
+        sum.value += part.value;
+        for (sum, part) in sum.gradient.iter_mut().zip(part.gradient) {
+            *sum += part;
         }
-        let whole = w[0] * w[1] * w[2];
-        result.value += whole * dot;
-        result.gradient[0] += whole * direction[0] + s[0] * w[1] * w[2] * dot;
-        result.gradient[1] += whole * direction[1] + s[1] * w[0] * w[2] * dot;
-        result.gradient[2] += whole * direction[2] + s[2] * w[0] * w[1] * dot;
-    }
-    result
+    };
+    add(corner::<1>(x, y, z));
+    add(corner::<2>(x, y, z));
+    add(corner::<3>(x, y, z));
+    add(corner::<4>(x, y, z));
+    add(corner::<5>(x, y, z));
+    add(corner::<6>(x, y, z));
+    add(corner::<7>(x, y, z));
+    sum
 }

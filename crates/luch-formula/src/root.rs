@@ -55,6 +55,7 @@ pub struct RootFinder<'t> {
     most_steps: usize,
     registers: Vec<IntervalDerivative>,
     inputs: Vec<IntervalDerivative>,
+    sides: Vec<Interval>,
     point: Vec<f64>,
     waiting: Vec<Piece>,
 }
@@ -92,6 +93,7 @@ impl<'t> RootFinder<'t> {
             most_steps: MOST_STEPS,
             registers: vec![zero; tape.registers()],
             inputs: vec![zero; tape.inputs()],
+            sides: vec![Interval::ZERO; tape.inputs()],
             point: vec![0.0; tape.inputs()],
             waiting: Vec::new(),
         }
@@ -145,7 +147,7 @@ impl<'t> RootFinder<'t> {
         let middle = 0.5 * first + 0.5 * last;
         let smooth = range.derivative.is_bounded() && range.value.is_bounded();
         if smooth && first < last {
-            let at_middle = self.range(line, middle, middle).value;
+            let at_middle = self.sure_value(line, middle);
             let reach = binary(
                 Binary::Subtract,
                 Interval { low: first, high: last, partial: false },
@@ -187,18 +189,16 @@ impl<'t> RootFinder<'t> {
     /// A piece in which the function is continuous and monotone: the signs at its ends tell.
     fn monotone(&mut self, line: Line, piece: Piece) -> FirstRoot {
         let Piece { first, last } = piece;
-        let (sure_first, sure_last) =
-            (self.range(line, first, first).value, self.range(line, last, last).value);
         let (at_first, at_last) = (self.value(line, first), self.value(line, last));
         let changes = (at_first < 0.0 && at_last > 0.0) || (at_first > 0.0 && at_last < 0.0);
         if changes {
             return FirstRoot::Crossing(self.bracket(line, piece, at_first, at_last));
         }
         // The sign stays; but where rounding hides it the root may be right there.
-        if sure_first.contains_zero() {
+        if self.sure_value(line, first).contains_zero() {
             return if at_first == 0.0 { FirstRoot::Crossing(first) } else { FirstRoot::Touching(first) };
         }
-        if sure_last.contains_zero() {
+        if self.sure_value(line, last).contains_zero() {
             return if at_last == 0.0 { FirstRoot::Crossing(last) } else { FirstRoot::Touching(last) };
         }
         FirstRoot::None
@@ -244,16 +244,29 @@ impl<'t> RootFinder<'t> {
         self.tape.value(&self.point)
     }
 
+    /// The range of the value at one parameter: as wide as rounding makes it.
+    fn sure_value(&mut self, line: Line, parameter: f64) -> Interval {
+        let parameter = Interval::point(parameter);
+        for ((side, origin), direction) in self.sides.iter_mut().zip(line.origin).zip(line.direction) {
+            *side = along(*origin, *direction, parameter);
+        }
+        self.tape.interval(&self.sides)
+    }
+
     fn range(&mut self, line: Line, first: f64, last: f64) -> IntervalDerivative {
         let parameter = Interval { low: first, high: last, partial: false };
         for ((input, origin), direction) in self.inputs.iter_mut().zip(line.origin).zip(line.direction) {
-            let derivative = Interval::point(*direction);
-            let moved = binary(Binary::Multiply, parameter, derivative, false);
-            let value = binary(Binary::Add, Interval::point(*origin), moved, false);
-            *input = IntervalDerivative { value, derivative };
+            let value = along(*origin, *direction, parameter);
+            *input = IntervalDerivative { value, derivative: Interval::point(*direction) };
         }
         self.tape.enclose_derivative(&self.inputs, &mut self.registers)
     }
+}
+
+/// A coordinate of a piece of a line.
+fn along(origin: f64, direction: f64, parameter: Interval) -> Interval {
+    let moved = binary(Binary::Multiply, parameter, Interval::point(direction), false);
+    binary(Binary::Add, Interval::point(origin), moved, false)
 }
 
 /// The first root of a tape of one variable, right to the tolerance; see [`RootFinder::first`] for what is told about it.

@@ -6,6 +6,7 @@
 mod build;
 mod bulk;
 mod bulk_gradient;
+mod bulk_noise;
 mod enclose;
 mod point;
 mod simplify;
@@ -56,7 +57,9 @@ struct Program {
     operations: Vec<Operation>,
     /// The steps that are results.
     outputs: Vec<u32>,
-    /// The same with registers.
+    /// The inputs that the outputs depend on.
+    used_inputs: Vec<u32>,
+    /// The operations with registers; the result's is none of the operands'.
     instructions: Vec<Instruction>,
     output_registers: Vec<u32>,
     registers: usize,
@@ -67,6 +70,22 @@ struct Program {
 struct Instruction {
     out: u32,
     operation: Operation,
+    /// The inputs on which each operand depends, one bit each.
+    depends: [Dependence; 3],
+}
+
+/// A set of inputs, one bit each; the last bit stands for all from the 64th on.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Dependence(u64);
+
+impl Dependence {
+    fn on(input: usize) -> Self {
+        Self(1 << input.min(63))
+    }
+
+    fn includes(self, input: usize) -> bool {
+        self.0 & Self::on(input).0 != 0
+    }
 }
 
 /// An expression uses a variable that the list lacks, or the list is longer than a tape can take.

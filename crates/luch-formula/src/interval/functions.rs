@@ -18,14 +18,19 @@ pub(super) const GAMMA_SLACK: f64 = 1e-13;
 /// The rounding of noise: some hundred operations on numbers of size one.
 const NOISE_SLACK: f64 = 1e-13;
 
+/// A number below, by one or two units of the last place, without a branch: ε|v| is one unit at least, and what is added to it
+/// serves numbers near zero. From +∞ the greatest number is taken first.
 #[inline]
 pub(super) fn down(value: f64) -> f64 {
-    value.next_down()
+    let value = if value > f64::MAX { f64::MAX } else { value };
+    value - (value.abs() * f64::EPSILON + f64::MIN_POSITIVE)
 }
 
+/// A number above; see [`down`].
 #[inline]
 pub(super) fn up(value: f64) -> f64 {
-    value.next_up()
+    let value = if value < -f64::MAX { -f64::MAX } else { value };
+    value + (value.abs() * f64::EPSILON + f64::MIN_POSITIVE)
 }
 
 /// The range of two numbers that are defined.

@@ -1,6 +1,6 @@
 //! From an expression to instructions.
 
-use super::{Instruction, Program, Tape, TapeError};
+use super::{Dependence, Instruction, Program, Tape, TapeError};
 use crate::expression::Expression;
 use crate::graph::{Graph, Id, Node};
 use crate::operation::Operation;
@@ -79,12 +79,27 @@ impl Tape {
             last_use[output as usize] = usize::MAX;
         }
 
+        let mut used_inputs: Vec<u32> =
+            operations.iter().flat_map(|operation| operation.operands()).chain(outputs.clone()).collect();
+        used_inputs.retain(|&number| (number as usize) < inputs);
+        used_inputs.sort_unstable();
+        used_inputs.dedup();
+
+        // Constants depend on nothing.
+        let mut depends: Vec<Dependence> = (0..inputs).map(Dependence::on).collect();
+        depends.resize(fixed, Dependence::default());
+
         let mut register_of: Vec<u32> = (0..(fixed + operations.len()) as u32).collect();
         let mut free: Vec<u32> = Vec::new();
         let mut registers = fixed as u32;
         let mut instructions = Vec::with_capacity(operations.len());
         for (moment, operation) in operations.iter().enumerate() {
             let placed = operation.with_operands(|operand| register_of[operand as usize]);
+            // The result gets its register before those of the operands are free: they must not overlap.
+            let out = free.pop().unwrap_or_else(|| {
+                registers += 1;
+                registers - 1
+            });
             let mut ended = operation.operands();
             ended.sort_unstable();
             for (index, &operand) in ended.iter().enumerate() {
@@ -93,12 +108,10 @@ impl Tape {
                     free.push(register_of[operand as usize]);
                 }
             }
-            let out = free.pop().unwrap_or_else(|| {
-                registers += 1;
-                registers - 1
-            });
             register_of[fixed + moment] = out;
-            instructions.push(Instruction { out, operation: placed });
+            let of_operands = operation.operands().map(|operand| depends[operand as usize]);
+            depends.push(Dependence(of_operands.iter().fold(0, |all, of_operand| all | of_operand.0)));
+            instructions.push(Instruction { out, operation: placed, depends: of_operands });
         }
         let output_registers = outputs.iter().map(|&output| register_of[output as usize]).collect();
         Self {
@@ -107,6 +120,7 @@ impl Tape {
                 constants,
                 operations,
                 outputs,
+                used_inputs,
                 instructions,
                 output_registers,
                 registers: registers as usize,

@@ -1,31 +1,21 @@
 //! Many points: each instruction is done for 128 of them before the next one.
 //!
 //! So the cost of reading an instruction vanishes, the loop over the points becomes vector code, and the registers stay in the
-//! nearest cache. Numbers stand in groups of eight that are read and written whole, hence an instruction may put its result
-//! where an operand was.
+//! nearest cache. The register of a result is never that of an operand, so that the compiler knows that they do not overlap.
 
+use super::bulk_noise::noise_values;
 use super::point::settled;
 use super::{Instruction, Program, Tape};
-use crate::noise::noise;
 use crate::operation::{Operation, VisitBinary, VisitSlopes, VisitUnary, binary, select, unary, whole_power};
 use crate::simd::{Level, Task, dispatch};
-use std::cell::Cell;
 
-/// Numbers in a group: one register of AVX-512.
-pub(super) const WIDTH: usize = 8;
+/// Points that are evaluated together: enough to hide the cost of an instruction, few enough for fifty registers in the cache.
+pub(super) const LANES: usize = 128;
 
-/// Groups in a register.
-pub(super) const GROUPS: usize = 16;
+/// Lanes are taken in groups: the width of the widest vector.
+const WIDTH: usize = 8;
 
-/// Points that are evaluated together.
-pub(super) const LANES: usize = WIDTH * GROUPS;
-
-pub(super) type Group = Cell<[f64; WIDTH]>;
-pub(super) type Register = [Group; GROUPS];
-
-pub(super) fn empty_register() -> Register {
-    [const { Cell::new([0.0; WIDTH]) }; GROUPS]
-}
+pub(super) type Register = [f64; LANES];
 
 impl Tape {
     /// The first output at many points. `inputs` has one list for each variable, with one number for each point.
@@ -63,23 +53,21 @@ impl Tape {
     /// The same with vector instructions of some level at most. Changes how long it takes, never a result.
     pub fn evaluator_at(&self, level: Level) -> Evaluator<'_> {
         let program = &*self.program;
-        let registers: Vec<Register> = (0..program.registers).map(|_| empty_register()).collect();
-        for (register, &constant) in registers[program.inputs..].iter().zip(&program.constants) {
-            for group in register {
-                group.set([constant; WIDTH]);
-            }
+        let mut registers = vec![[0.0; LANES]; program.registers];
+        for (register, &constant) in registers[program.inputs..].iter_mut().zip(&program.constants) {
+            *register = [constant; LANES];
         }
         Evaluator { tape: self, level, registers, slopes: Vec::new() }
     }
 }
 
 /// A tape with room for evaluations at many points.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Evaluator<'t> {
     pub(super) tape: &'t Tape,
     pub(super) level: Level,
     pub(super) registers: Vec<Register>,
-    /// Derivatives of registers, and numbers in between; see [`gradients`](Self::gradients).
+    /// The derivatives of all registers by the first input, then by the second.
     pub(super) slopes: Vec<Register>,
 }
 
@@ -99,32 +87,26 @@ impl Evaluator<'_> {
     ///
     /// If there is not one list for each input, there are more lists than outputs, or lengths differ.
     pub fn evaluate_many(&mut self, inputs: &[&[f64]], values: &mut [&mut [f64]]) {
-        let length = self.check(inputs, values);
+        let length = values.first().map_or(0, |list| list.len());
+        self.check(inputs, length);
+        assert!(values.iter().all(|list| list.len() == length), "one number for each point");
         assert!(values.len() <= self.tape.outputs(), "a tape gives no more than its outputs");
-        let task = Values {
-            program: &self.tape.program,
-            registers: &self.registers,
-            inputs,
-            outputs: values,
-            length,
-        };
-        dispatch(self.level, task);
+        let program = &*self.tape.program;
+        dispatch(
+            self.level,
+            Values { program, registers: &mut self.registers, inputs, outputs: values, length },
+        );
     }
 
-    /// How many points there are.
-    pub(super) fn check(&self, inputs: &[&[f64]], lists: &[&mut [f64]]) -> usize {
+    pub(super) fn check(&self, inputs: &[&[f64]], length: usize) {
         self.tape.check_inputs(inputs.len());
-        let length = lists.first().map_or(0, |list| list.len());
-        let same =
-            inputs.iter().all(|list| list.len() == length) && lists.iter().all(|list| list.len() == length);
-        assert!(same || lists.is_empty(), "one number for each point");
-        length
+        assert!(inputs.iter().all(|list| list.len() == length), "one number for each point");
     }
 }
 
 struct Values<'a, 'o> {
     program: &'a Program,
-    registers: &'a [Register],
+    registers: &'a mut [Register],
     inputs: &'a [&'a [f64]],
     outputs: &'a mut [&'o mut [f64]],
     length: usize,
@@ -135,10 +117,10 @@ impl Task for Values<'_, '_> {
     fn run(self) {
         for start in (0..self.length).step_by(LANES) {
             let count = LANES.min(self.length - start);
-            let groups = count.div_ceil(WIDTH);
-            load(self.inputs, self.registers, start, count);
-            for Instruction { out, operation } in &self.program.instructions {
-                compute(operation, self.registers, &self.registers[*out as usize], groups);
+            load(self.program, self.inputs, self.registers, start, count);
+            for Instruction { out, operation, .. } in &self.program.instructions {
+                let (out, others) = apart(self.registers, *out);
+                compute(operation, &others, &mut out[..in_groups(count)]);
             }
             for (output, &register) in self.outputs.iter_mut().zip(&self.program.output_registers) {
                 store(&self.registers[register as usize], &mut output[start..start + count]);
@@ -147,57 +129,65 @@ impl Task for Values<'_, '_> {
     }
 }
 
-/// Puts points into the registers of the inputs; a last group that is not full repeats its last point.
+/// The lanes that are computed for some points.
 #[inline(always)]
-pub(super) fn load(inputs: &[&[f64]], registers: &[Register], start: usize, count: usize) {
-    for (input, register) in inputs.iter().zip(registers) {
-        let (whole, rest) = input[start..start + count].as_chunks::<WIDTH>();
-        for (values, group) in whole.iter().zip(register) {
-            group.set(*values);
-        }
-        if let Some(&last) = rest.last() {
-            let mut values = [last; WIDTH];
-            values[..rest.len()].copy_from_slice(rest);
-            register[whole.len()].set(values);
-        }
+pub(super) fn in_groups(count: usize) -> usize {
+    count.next_multiple_of(WIDTH).min(LANES)
+}
+
+/// Puts points into the registers of the inputs that are used; a last group that is not full repeats its last point.
+#[inline(always)]
+pub(super) fn load(
+    program: &Program,
+    inputs: &[&[f64]],
+    registers: &mut [Register],
+    start: usize,
+    count: usize,
+) {
+    for &input in &program.used_inputs {
+        let register = &mut registers[input as usize];
+        let values = &inputs[input as usize][start..start + count];
+        register[..count].copy_from_slice(values);
+        register[count..in_groups(count)].fill(values[count - 1]);
     }
 }
 
 #[inline(always)]
 pub(super) fn store(register: &Register, output: &mut [f64]) {
-    let (whole, rest) = output.as_chunks_mut::<WIDTH>();
-    for (values, group) in whole.iter_mut().zip(register) {
-        *values = each(group.get(), settled);
-    }
-    let values = register[whole.len() % GROUPS].get();
-    for (output, value) in rest.iter_mut().zip(values) {
+    for (output, &value) in output.iter_mut().zip(register) {
         *output = settled(value);
     }
 }
 
-#[inline(always)]
-fn each(x: [f64; WIDTH], function: impl Fn(f64) -> f64) -> [f64; WIDTH] {
-    let mut result = [0.0; WIDTH];
-    for lane in 0..WIDTH {
-        result[lane] = function(x[lane]);
-    }
-    result
+/// All registers but one.
+pub(super) struct Others<'r> {
+    before: &'r [Register],
+    after: &'r [Register],
 }
 
-#[inline(always)]
-pub(super) fn each_two(x: [f64; WIDTH], y: [f64; WIDTH], function: impl Fn(f64, f64) -> f64) -> [f64; WIDTH] {
-    let mut result = [0.0; WIDTH];
-    for lane in 0..WIDTH {
-        result[lane] = function(x[lane], y[lane]);
+impl Others<'_> {
+    #[inline(always)]
+    pub(super) fn of(&self, register: u32) -> &Register {
+        let register = register as usize;
+        match register.checked_sub(self.before.len() + 1) {
+            None => &self.before[register],
+            Some(register) => &self.after[register],
+        }
     }
-    result
 }
 
-/// One operation for some groups.
+/// Takes one register out, to be written.
 #[inline(always)]
-pub(super) fn compute(operation: &Operation, registers: &[Register], out: &Register, groups: usize) {
-    let of = |register: u32| &registers[register as usize][..groups];
-    let out = &out[..groups];
+pub(super) fn apart(registers: &mut [Register], out: u32) -> (&mut Register, Others<'_>) {
+    let (before, rest) = registers.split_at_mut(out as usize);
+    let (out, after) = rest.split_first_mut().expect("instructions write to registers of the tape");
+    (out, Others { before, after })
+}
+
+/// One operation for as many lanes as the result has.
+#[inline(always)]
+pub(super) fn compute(operation: &Operation, registers: &Others<'_>, out: &mut [f64]) {
+    let of = |register: u32| registers.of(register);
     match *operation {
         Operation::Unary { function, a } => unary(function, Lanes { operands: [of(a)], out }),
         Operation::Binary { function, a, b } => binary(function, Lanes { operands: [of(a), of(b)], out }),
@@ -205,67 +195,58 @@ pub(super) fn compute(operation: &Operation, registers: &[Register], out: &Regis
             let lanes = Lanes { operands: [of(base)], out };
             // Small exponents are compiled on their own.
             match exponent {
-                2 => VisitUnary::visit(lanes, |x| x * x),
+                2 => VisitUnary::visit(lanes, |x| whole_power(x, 2)),
                 3 => VisitUnary::visit(lanes, |x| whole_power(x, 3)),
                 4 => VisitUnary::visit(lanes, |x| whole_power(x, 4)),
-                _ => {
-                    for (base, out) in of(base).iter().zip(out) {
-                        out.set(whole_power_of_group(base.get(), exponent));
-                    }
-                }
+                _ => whole_powers(of(base), exponent, lanes.out),
             }
         }
         Operation::Select { condition, yes, no } => {
-            for (((condition, yes), no), out) in of(condition).iter().zip(of(yes)).zip(of(no)).zip(out) {
-                let (condition, yes, no) = (condition.get(), yes.get(), no.get());
-                let mut result = [0.0; WIDTH];
-                for lane in 0..WIDTH {
-                    result[lane] = select(condition[lane], yes[lane], no[lane]);
-                }
-                out.set(result);
+            let (condition, yes, no) = (of(condition), of(yes), of(no));
+            for (lane, out) in out.iter_mut().enumerate() {
+                *out = select(condition[lane], yes[lane], no[lane]);
             }
         }
-        Operation::Noise { x, y, z } => {
-            for (((x, y), z), out) in of(x).iter().zip(of(y)).zip(of(z)).zip(out) {
-                let (x, y, z) = (x.get(), y.get(), z.get());
-                let mut result = [0.0; WIDTH];
-                for lane in 0..WIDTH {
-                    result[lane] = noise(x[lane], y[lane], z[lane]).value;
-                }
-                out.set(result);
-            }
-        }
+        Operation::Noise { x, y, z } => noise_values([of(x), of(y), of(z)], out),
     }
 }
 
-/// As [`whole_power`], with eight lanes in every product.
+/// As [`whole_power`], with all lanes in every product.
 #[inline(always)]
-fn whole_power_of_group(base: [f64; WIDTH], exponent: u8) -> [f64; WIDTH] {
-    let (mut square, mut rest, mut power) = (base, exponent, None);
+pub(super) fn whole_powers(base: &Register, exponent: u8, out: &mut [f64]) {
+    let mut square = *base;
+    let mut rest = exponent;
+    let mut is_first = true;
     loop {
         if rest & 1 == 1 {
-            power = Some(power.map_or(square, |power| each_two(power, square, |x, y| x * y)));
+            for (out, &square) in out.iter_mut().zip(&square) {
+                *out = if is_first { square } else { *out * square };
+            }
+            is_first = false;
         }
         rest >>= 1;
         if rest == 0 {
-            return power.unwrap_or(square);
+            return;
         }
-        square = each(square, |x| x * x);
+        for square in &mut square {
+            *square *= *square;
+        }
     }
 }
 
 /// Applies a function to all lanes of its operands.
 pub(super) struct Lanes<'a, const N: usize> {
-    pub(super) operands: [&'a [Group]; N],
-    pub(super) out: &'a [Group],
+    pub(super) operands: [&'a Register; N],
+    pub(super) out: &'a mut [f64],
 }
 
 impl VisitUnary for Lanes<'_, 1> {
     type Output = ();
     #[inline(always)]
     fn visit(self, function: impl Fn(f64) -> f64) {
-        for (x, out) in self.operands[0].iter().zip(self.out) {
-            out.set(each(x.get(), &function));
+        let [x] = self.operands;
+        for (&x, out) in x.iter().zip(self.out) {
+            *out = function(x);
         }
     }
 }
@@ -274,16 +255,18 @@ impl VisitBinary for Lanes<'_, 2> {
     type Output = ();
     #[inline(always)]
     fn visit(self, function: impl Fn(f64, f64) -> f64) {
-        for ((x, y), out) in self.operands[0].iter().zip(self.operands[1]).zip(self.out) {
-            out.set(each_two(x.get(), y.get(), &function));
+        let [x, y] = self.operands;
+        for ((&x, &y), out) in x.iter().zip(y).zip(self.out) {
+            *out = function(x, y);
         }
     }
 }
 
 /// Computes two slopes from two operands and the value.
 pub(super) struct SlopeLanes<'a> {
-    pub(super) operands: [&'a [Group]; 3],
-    pub(super) out: [&'a [Group]; 2],
+    pub(super) operands: [&'a Register; 3],
+    pub(super) first: &'a mut [f64],
+    pub(super) second: &'a mut [f64],
 }
 
 impl VisitSlopes for SlopeLanes<'_> {
@@ -291,14 +274,8 @@ impl VisitSlopes for SlopeLanes<'_> {
     #[inline(always)]
     fn visit(self, slopes: impl Fn(f64, f64, f64) -> [f64; 2]) {
         let [x, y, value] = self.operands;
-        for (group, x) in x.iter().enumerate() {
-            let (x, y, value) = (x.get(), y[group].get(), value[group].get());
-            let (mut first, mut second) = ([0.0; WIDTH], [0.0; WIDTH]);
-            for lane in 0..WIDTH {
-                [first[lane], second[lane]] = slopes(x[lane], y[lane], value[lane]);
-            }
-            self.out[0][group].set(first);
-            self.out[1][group].set(second);
+        for (lane, (first, second)) in self.first.iter_mut().zip(self.second).enumerate() {
+            [*first, *second] = slopes(x[lane], y[lane], value[lane]);
         }
     }
 }

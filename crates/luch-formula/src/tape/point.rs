@@ -6,12 +6,13 @@ use crate::operation::{
     Binary, Once, Operation, binary_slopes, chain, is_true, unary_slope, whole_power_slope,
 };
 
-/// Registers that fit on the stack.
-const FEW: usize = 64;
-
 /// Lends some registers, from the stack if they are few.
 pub(super) fn with_registers<T: Copy, R>(count: usize, zero: T, body: impl FnOnce(&mut [T]) -> R) -> R {
-    if count <= FEW { body(&mut [zero; FEW][..count]) } else { body(&mut vec![zero; count]) }
+    match count {
+        0..=16 => body(&mut [zero; 16][..count]),
+        17..=64 => body(&mut [zero; 64][..count]),
+        _ => body(&mut vec![zero; count]),
+    }
 }
 
 /// All undefined numbers are one.
@@ -81,6 +82,7 @@ impl Tape {
                     for axis in 0..count {
                         let slope = derivative(
                             &instruction.operation,
+                            instruction.depends.map(|operand| operand.includes(axis)),
                             value,
                             |register| registers[register as usize],
                             |register| slopes[register as usize * count + axis],
@@ -99,21 +101,29 @@ impl Tape {
     }
 }
 
-/// The derivative of a step from those of its operands.
+/// The derivative of a step from those of its operands; `moving` says which of them depend on the input.
 #[inline(always)]
 fn derivative(
     operation: &Operation,
+    moving: [bool; 3],
     value: f64,
     of: impl Fn(u32) -> f64,
     slope_of: impl Fn(u32) -> f64,
 ) -> f64 {
+    if moving == [false; 3] {
+        return 0.0;
+    }
     match *operation {
         Operation::Unary { function, a } => chain(unary_slope(function, Once([of(a), value])), slope_of(a)),
         Operation::Binary { function: Binary::Add, a, b } => slope_of(a) + slope_of(b),
         Operation::Binary { function: Binary::Subtract, a, b } => slope_of(a) - slope_of(b),
         Operation::Binary { function, a, b } => {
             let [first, second] = binary_slopes(function, Once([of(a), of(b), value]));
-            chain(first, slope_of(a)) + chain(second, slope_of(b))
+            match moving {
+                [true, true, _] => chain(first, slope_of(a)) + chain(second, slope_of(b)),
+                [true, ..] => chain(first, slope_of(a)),
+                _ => chain(second, slope_of(b)),
+            }
         }
         Operation::WholePower { base, exponent } => {
             chain(whole_power_slope(of(base), exponent), slope_of(base))
