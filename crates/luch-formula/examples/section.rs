@@ -38,7 +38,7 @@ fn main() {
             let shorter = tape.simplify(&traced.choices);
             let known = !traced.value.contains_zero() && !traced.value.partial;
             decided += usize::from(known);
-            for row in top..top + BOX {
+            for (row, line) in picture.iter_mut().enumerate().skip(top).take(BOX) {
                 let columns: Vec<f64> =
                     (left..left + BOX).map(|column| x(column) + HALF / WIDTH as f64).collect();
                 let rows = [z(row) - HALF / HEIGHT as f64; BOX];
@@ -46,7 +46,7 @@ fn main() {
                 if !known {
                     shorter.evaluate(&[&columns, &[0.0; BOX], &rows], &mut values);
                 }
-                for (place, value) in picture[row][left..].iter_mut().zip(values) {
+                for (place, value) in line[left..].iter_mut().zip(values) {
                     *place = if value < 0.0 { '#' } else { '.' };
                 }
             }

@@ -61,7 +61,8 @@ impl Tape {
 
     /// The first output at a point, and its derivatives by the first inputs, as many as there is room for.
     ///
-    /// Where the function jumps its derivative is that of the piece; in a kink it is that of the side that was taken.
+    /// Where the function jumps its derivative is that of the piece; in a kink it is that of the side that was taken, and zero
+    /// for `abs`.
     ///
     /// # Panics
     ///
