@@ -38,8 +38,8 @@ luch 1
 camera { from 0 1 4; to 0 1 0 }
 material "clay" { diffuse 0.8 }
 material "red" { diffuse 0.8 0.1 0.1 }
-object material="red" { mesh "cube.obj"; translate 5 0 0 }
-object material="clay" { mesh "cube.obj"; scale 2 }
+object material="red" { mesh { file "cube.obj" }; translate 5 0 0 }
+object material="clay" { mesh { file "cube.obj" }; scale 2 }
 object material="clay" { sphere radius=1 }
 "#;
     let cube = generate::cuboid(Vec3::ONE, [1, 1, 1]);
