@@ -5,4 +5,5 @@ mod framing;
 mod hostile;
 mod lines;
 mod ray_casts;
+mod shading;
 mod views;
