@@ -39,9 +39,9 @@ pub fn draw(subject: &Subject, camera: &Camera, size: Size, style: &Style) -> Re
     let factor = style.antialiasing.factor();
     check(size, factor)?;
     let seen = Visibility::new(subject, View::new(camera, size, 1)?, style.hides_back_faces)?;
-    let depth = filled(size, |x, y| match seen.seen(x, y) {
-        Some(_) => seen.view.depth(seen.linear(x, y)) as f32,
-        None => f32::INFINITY,
+    let depth = filled(size, |x, y| match seen.is_empty(x, y) {
+        false => seen.view.depth(seen.linear(x, y)) as f32,
+        true => f32::INFINITY,
     });
     let found = filled(size, |x, y| {
         seen.seen(x, y).map_or([NOTHING; 2], |found| [subject.parts[found.part].number, seen.face(found)])

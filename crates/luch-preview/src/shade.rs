@@ -105,7 +105,7 @@ fn id_color(id: u64) -> Rgb {
 /// Least and greatest linear depth of all samples that show something.
 fn range(seen: &Visibility) -> [f64; 2] {
     let rows = (0..seen.view.size.height).into_par_iter().map(|y| {
-        let row = (0..seen.view.size.width).filter(|&x| seen.seen(x, y).is_some()).map(|x| seen.linear(x, y));
+        let row = (0..seen.view.size.width).filter(|&x| !seen.is_empty(x, y)).map(|x| seen.linear(x, y));
         row.fold([f64::INFINITY, 0.0], |[least, most], linear| [linear.min(least), linear.max(most)])
     });
     rows.reduce(|| [f64::INFINITY, 0.0], |a, b| [a[0].min(b[0]), a[1].max(b[1])])

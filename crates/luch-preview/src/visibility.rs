@@ -108,11 +108,19 @@ impl<'a> Visibility<'a> {
         self.cells[y as usize * self.view.size.width as usize + x as usize]
     }
 
+    /// Whether a sample shows nothing.
+    #[inline]
+    pub(crate) fn is_empty(&self, x: u32, y: u32) -> bool {
+        self.cell(x, y) == EMPTY
+    }
+
     /// What a sample shows.
+    #[inline]
     pub(crate) fn seen(&self, x: u32, y: u32) -> Option<Seen> {
         Some(self.seen_by_number(number_of(self.cell(x, y))?))
     }
 
+    #[inline]
     fn seen_by_number(&self, number: u32) -> Seen {
         // Parts without triangles have the number of the next one; the last of equals has it.
         let part = self.placed.partition_point(|placed| placed.first <= number) - 1;
