@@ -37,7 +37,10 @@ impl Edges {
         let mut buckets = vec![0u32; vertex_count + 1];
         for half_edge in 0..count {
             let [low, high] = ends(half_edge);
-            buckets[low as usize + 1] += u32::from(low != high);
+            // A half-edge to itself may be at a vertex that is not there.
+            if low != high {
+                buckets[low as usize + 1] += 1;
+            }
         }
         for vertex in 0..vertex_count {
             buckets[vertex + 1] += buckets[vertex];

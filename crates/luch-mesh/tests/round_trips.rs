@@ -127,7 +127,9 @@ fn every_generator_through_every_format() {
                         assert_eq!(after.corner_uvs(t, 0), before.corner_uvs(t, 0));
                     }
                 }
-                if matches!(format, Format::Obj | Format::Stl | Format::ThreeMf) {
+                // Places that are one in an STL file are two in the teapot, where its handle touches the body.
+                let touches = format == Format::Stl && matches!(generator, Generator::Teapot { .. });
+                if matches!(format, Format::Obj | Format::Stl | Format::ThreeMf) && !touches {
                     // Positions are shared as before.
                     let [after, before] = [&after, &before].map(|mesh| {
                         // Positions are numbered anew, so the first of the faulty edges is another.

@@ -97,6 +97,13 @@ mod tests {
     }
 
     #[test]
+    fn corners_without_positions_have_no_edges() {
+        let mut mesh = PolygonMesh::default();
+        mesh.add_face(&[0, 1, 2]);
+        assert_eq!(HalfEdges::new(&mesh).edge_count(), 0);
+    }
+
+    #[test]
     fn holes_have_half_edges_of_their_own() {
         let mut mesh = PolygonMesh { positions: vec![Vec3::ZERO; 8], ..Default::default() };
         mesh.add_face_with_holes(&[0, 1, 2, 3], &[&[4, 5, 6, 7]]);

@@ -80,7 +80,8 @@ pub(super) const INSET: Verb = Verb {
         SELECT,
     ],
     example: "--width 0.05 --depth -0.02 --mode individual",
-    action: Action::Change { keeps: SOUND_WITH_CREASES, run: inset },
+    // Faces with holes whose borders come close to one another may open.
+    action: Action::Change { keeps: Keeps { closed: false, ..SOUND_WITH_CREASES }, run: inset },
 };
 
 fn inset(mesh: PolygonMesh, arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
