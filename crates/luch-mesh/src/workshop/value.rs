@@ -58,6 +58,10 @@ impl Kind {
             Self::Number { least, most: f64::MAX } if *least == f64::MIN_POSITIVE => {
                 "a number above 0".into()
             }
+            // Bounds that only keep reckoning in range are not worth telling.
+            Self::Number { least, most } if *least > 0.0 && *least < 1e-9 && *most > 1e9 => {
+                "a number above 0".into()
+            }
             Self::Number { least, most: f64::MAX } => format!("a number from {least}"),
             Self::Number { least, most } => format!("a number from {least} to {most}"),
             Self::Count { least, most: u64::MAX } => format!("a whole number from {least}"),

@@ -80,8 +80,7 @@ pub(super) const INSET: Verb = Verb {
         SELECT,
     ],
     example: "--width 0.05 --depth -0.02 --mode individual",
-    // Faces with holes whose borders come close to one another may open.
-    action: Action::Change { keeps: Keeps { closed: false, ..SOUND_WITH_CREASES }, run: inset },
+    action: Action::Change { keeps: SOUND_WITH_CREASES, run: inset },
 };
 
 fn inset(mesh: PolygonMesh, arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
