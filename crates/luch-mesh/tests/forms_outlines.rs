@@ -159,7 +159,11 @@ fn gears_have_teeth_as_wide_as_gaps() {
             let pitch = 0.25 * f64::from(teeth);
             let distance = |p: &DVec2| p.length() - pitch;
             assert!(border.iter().all(|p| (-0.625 - 1e-9..0.5 + 1e-9).contains(&distance(p))), "{gear:?}");
-            assert_eq!(nested(&[border.clone()], FillRule::NonZero).unwrap().len(), 1, "{gear:?}");
+            assert_eq!(
+                nested(std::slice::from_ref(&border), FillRule::NonZero).unwrap().len(),
+                1,
+                "{gear:?}"
+            );
             // Where flanks cross the pitch circle the angles from flank to flank are all alike.
             let crossings: Vec<f64> = (0..border.len())
                 .filter_map(|k| {
@@ -212,7 +216,7 @@ proptest! {
             let (one, other) = (edge(i), edge(j));
             side(one, other[0]) * side(one, other[1]) < 0.0 && side(other, one[0]) * side(other, one[1]) < 0.0
         }));
-        let found = nested(&[border.clone()], FillRule::EvenOdd);
+        let found = nested(std::slice::from_ref(&border), FillRule::EvenOdd);
         // Without area there is nothing to look at.
         if found != Err(OutlineError::Empty) {
             prop_assert_eq!(crosses, matches!(found, Err(OutlineError::Crossing { .. })));

@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 
 /// A form in its own coordinates.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[expect(clippy::large_enum_variant, reason = "nearly every shape is a mesh, and a scene has few of them")]
 pub enum Shape {
     /// Triangles.
     Mesh(TriangleMesh),

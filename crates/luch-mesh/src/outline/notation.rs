@@ -87,7 +87,7 @@ fn read(form: &str, tolerance: f64, character: usize) -> Result<Vec<Vec<DVec2>>,
             return Err(wrong(format!("{name}: `at` has {} numbers, expected two", others.len())));
         }
     };
-    if !(tolerance > 0.0) {
+    if tolerance.is_nan() || tolerance <= 0.0 {
         return Err(OutlineError::OutOfRange {
             name: "the tolerance",
             found: tolerance,

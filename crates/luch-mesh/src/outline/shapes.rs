@@ -30,7 +30,7 @@ pub fn circle_pieces(radius: f64, tolerance: f64) -> u32 {
 /// A star: tips at `outer` from the centre, the first on +y, and corners between them at `inner`.
 pub fn star(tips: u32, outer: f64, inner: f64) -> Vec<DVec2> {
     let tips = tips.clamp(2, MAX_PIECES / 2);
-    let radius = |k: u32| if k % 2 == 0 { outer } else { inner };
+    let radius = |k: u32| if k.is_multiple_of(2) { outer } else { inner };
     (0..2 * tips).map(|k| on_circle(k, 2 * tips).perp() * radius(k)).collect()
 }
 

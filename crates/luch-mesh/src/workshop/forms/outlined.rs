@@ -192,7 +192,7 @@ fn lathe(a: &Arguments) -> Result<PolygonMesh, WorkshopError> {
 
 fn sweep(a: &Arguments) -> Result<PolygonMesh, WorkshopError> {
     let numbers = a.numbers("path");
-    if numbers.len() % 3 != 0 || numbers.iter().any(|n| n.abs() > *LENGTHS.end()) {
+    if !numbers.len().is_multiple_of(3) || numbers.iter().any(|n| n.abs() > *LENGTHS.end()) {
         let message = format!("has {} numbers, expected three for each point", numbers.len());
         return Err(WorkshopError::of("path", message));
     }
