@@ -202,7 +202,7 @@ impl Facet {
         let (cell, columns) = (primitive / 2, field.width as usize - 1);
         let (column, row) = ((cell % columns) as u32, (cell / columns) as u32);
         let [a, b, c, d] = [(column, row + 1), (column + 1, row + 1), (column + 1, row), (column, row)];
-        let points = if primitive % 2 == 0 { [a, b, c] } else { [a, c, d] };
+        let points = if primitive.is_multiple_of(2) { [a, b, c] } else { [a, c, d] };
         Self { points, corners: points.map(|(column, row)| field.place(column, row)) }
     }
 

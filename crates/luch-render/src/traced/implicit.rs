@@ -84,7 +84,8 @@ pub(super) fn point(surface: &Implicit, near: Vec3) -> Vec3 {
         let value = tape.gradient(&place, &mut gradient);
         let squared: f64 = gradient.iter().map(|g| g * g).sum();
         let step = value / squared;
-        if !(step.abs() * squared.sqrt() <= most) {
+        let length = step.abs() * squared.sqrt();
+        if length.is_nan() || length > most {
             break;
         }
         for axis in 0..3 {
