@@ -72,12 +72,12 @@ fn picture(
 /// The camera that is asked for, or the first.
 fn scene_camera(scene: &Scene, args: &PreviewArgs) -> Result<Option<Camera>, Failure> {
     let Some(name) = &args.camera else {
-        return Ok(scene.cameras.first().map(|named| named.camera.clone()));
+        return Ok(scene.cameras.first().map(|named| named.camera));
     };
     let known = || scene.cameras.iter().map(|named| named.name.as_str()).collect::<Vec<_>>().join(", ");
     let found = scene.cameras.iter().find(|named| named.name == *name);
     let missing = || Failure::usage(format!("there is no camera `{name}`; there are: {}", known()));
-    Ok(Some(found.ok_or_else(missing)?.camera.clone()))
+    Ok(Some(found.ok_or_else(missing)?.camera))
 }
 
 fn style(args: &PreviewArgs) -> Result<Style, Failure> {
