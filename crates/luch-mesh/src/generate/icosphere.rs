@@ -8,7 +8,7 @@ use super::circle::on_circle;
 use crate::PolygonMesh;
 use crate::polygon_mesh::CornerAttribute;
 
-/// The most often an [`icosphere`] is subdivided: 20 · 4⁹ ≈ 5 million triangles.
+/// The most often an icosphere is subdivided: 20 · 4⁹ ≈ 5 million triangles.
 pub const MAX_SUBDIVISIONS: u32 = 9;
 
 /// A sphere of `radius` around the origin: an icosahedron with corners at the poles of the y axis, each triangle cut
