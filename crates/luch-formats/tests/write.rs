@@ -84,5 +84,5 @@ fn meshes_read_back() {
         assert_eq!(read.triangles.len(), mesh.triangles.len(), "{name}");
         assert_eq!(luch_mesh::measure::volume(read), 6.0, "{name}");
     }
-    assert!(matches!(save_mesh(&folder.path().join("a.txt"), &mesh), Err(SaveError::Extension { .. })));
+    assert!(matches!(save_mesh(&folder.path().join("a.txt"), &mesh), Err(SaveError::MeshExtension { .. })));
 }

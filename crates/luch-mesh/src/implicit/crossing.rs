@@ -161,13 +161,26 @@ impl Task for Interpolate<'_> {
             }
             slope
         };
+        let inner_slope = |place: usize| {
+            let [x, y, z] = steps.map(|step| values[place + step] - values[place - step]);
+            Vec3::new(x, y, z) * scale[0]
+        };
         for_each_in_slice(grid, signs, numbers, z, |n, crossing| {
             let place = grid.place(crossing.start.map(|n| n as usize));
             let end = place + steps[crossing.axis as usize];
             let above = |place: usize| f64::from(values[place]) - f64::from(level);
             let part = crossing.apart(signs, fraction(above(place), above(end)));
             positions[n] = crossing.point(grid, part).as_vec3();
-            let (one, other) = (slope(place, crossing.start), slope(end, crossing.end()));
+            // Away from the border the same without asking at every step.
+            let is_inner = (0..3).all(|axis| {
+                let at = crossing.start[axis] as usize;
+                at > 0 && at + 2 < counts[axis]
+            });
+            let (one, other) = if is_inner {
+                (inner_slope(place), inner_slope(end))
+            } else {
+                (slope(place, crossing.start), slope(end, crossing.end()))
+            };
             let gradient = one + (other - one) * part as f32;
             normals[n] = unit_or(gradient, crossing.outward());
         });

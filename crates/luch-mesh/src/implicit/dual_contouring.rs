@@ -12,6 +12,7 @@ use super::Grid;
 use super::cases::CASES;
 use super::cell::{faces_of_edge, other_axes};
 use super::crossing::Crossing;
+use super::field::{Field, PointList};
 use super::marching_cubes::{corner_values, variant_number};
 use super::quadric::Quadric;
 use super::roots::Root;
@@ -20,6 +21,8 @@ use crate::TriangleMesh;
 
 /// Slices of cells that are worked on together; fixed, so that threads change nothing.
 const SLAB: usize = 8;
+/// Quads that are worked on together.
+const BATCH: usize = 1024;
 /// No vertex.
 const NONE: u32 = u32::MAX;
 /// The cells about an edge in order round its axis: bit 0 and bit 1 set if the cell lies before the edge along the first and the
@@ -28,6 +31,7 @@ const ROUND: [usize; 4] = [0, 1, 3, 2];
 
 /// The surface with a vertex for each loop in a cell.
 pub(super) fn contour(
+    field: &dyn Field,
     grid: &Grid,
     signs: &Signs,
     numbers: &EdgeNumbers,
@@ -58,7 +62,8 @@ pub(super) fn contour(
         double_segments.extend(slab.double_segments);
     }
     let middles = Middles::new(double_segments, roots, &mut positions);
-    let mut triangles = Vec::with_capacity(crossings.len() * 2);
+    let mut quads = Vec::with_capacity(crossings.len());
+    let mut fans = Vec::new();
     let mut polygon = Vec::new();
     for (edge, (crossing, about)) in crossings.iter().zip(&about).enumerate() {
         // At the border of the grid some cells are missing: the surface is open there.
@@ -75,8 +80,13 @@ pub(super) fn contour(
         if crossing.starts_inside == (crossing.axis == 1) {
             polygon.reverse();
         }
-        fill(&polygon, &positions, roots[edge].normal, &mut triangles);
+        match *polygon {
+            [a, b, c, d] => quads.push([a, b, c, d]),
+            _ => fan(&polygon, &mut fans),
+        }
     }
+    let mut triangles = cut(field, &quads, &positions);
+    triangles.extend(fans);
     let mesh = TriangleMesh::new(positions, triangles);
     crate::clean::remove_unused_positions(&mesh).mesh
 }
@@ -217,28 +227,48 @@ impl Middles {
     }
 }
 
-/// Cuts a polygon into triangles. Four corners: along the diagonal whose triangles face most like the surface; more: a fan about
-/// a corner on a face, since no other polygon has two of its other corners.
-fn fill(polygon: &[u32], positions: &[Vec3], normal: Vec3, triangles: &mut Vec<[u32; 3]>) {
-    let fan = |first: usize| {
-        let at = move |n: usize| polygon[(first + n) % polygon.len()];
-        (1..polygon.len() - 1).map(move |n| [at(0), at(n), at(n + 1)])
+/// Cuts quads in two, each along the diagonal whose middle is nearer to the surface: so edges that run along it stay sharp. Where
+/// both are as near as the corners, along the one that is bent less.
+fn cut(field: &dyn Field, quads: &[[u32; 4]], positions: &[Vec3]) -> Vec<[u32; 3]> {
+    let place = |vertex: u32| positions[vertex as usize].as_dvec3();
+    let distances_at = |points: PointList| {
+        let mut values = vec![0.0f64; points.points().len()];
+        field.values(points.points(), &mut values);
+        values.into_iter().map(f64::abs)
     };
-    if polygon.len() > 4 {
-        // Vertices on faces come after all others.
-        let first = (0..polygon.len()).max_by_key(|&n| polygon[n]).unwrap_or(0);
-        triangles.extend(fan(first));
-        return;
-    }
-    let agreement = |first: usize| {
-        fan(first)
-            .map(|triangle| {
-                let [a, b, c] = triangle.map(|v| positions[v as usize].as_dvec3());
-                (b - a).cross(c - a).normalize_or_zero().dot(normal.as_dvec3())
-            })
-            .fold(f64::INFINITY, f64::min)
+    let batches = positions.par_chunks(BATCH);
+    let of_corners: Vec<f64> =
+        batches.flat_map_iter(|batch| distances_at(batch.iter().map(|p| p.as_dvec3()).collect())).collect();
+    let flatness = |[a, b, c]: [u32; 3], [d, e, f]: [u32; 3]| {
+        let normal = |a, b, c| (place(b) - place(a)).cross(place(c) - place(a)).normalize_or_zero();
+        normal(a, b, c).dot(normal(d, e, f))
     };
-    triangles.extend(fan(usize::from(agreement(1) > agreement(0))));
+    let halves = quads.par_chunks(BATCH).flat_map_iter(|quads| {
+        let middle = |a: u32, b: u32| (place(a) + place(b)) / 2.0;
+        let middles = quads.iter().flat_map(|&[a, b, c, d]| [middle(a, c), middle(b, d)]).collect();
+        let distances: Vec<f64> = distances_at(middles).collect();
+        let cut = |(n, &[a, b, c, d]): (usize, &[u32; 4])| {
+            let (first, second) = ([[a, b, c], [a, c, d]], [[a, b, d], [b, c, d]]);
+            let corners = [a, b, c, d].map(|v| of_corners[v as usize]).into_iter().fold(0.0, f64::max);
+            let [one, other] = [distances[2 * n], distances[2 * n + 1]];
+            let is_second = if one.max(other) <= 4.0 * corners {
+                flatness(second[0], second[1]) > flatness(first[0], first[1])
+            } else {
+                other < one
+            };
+            if is_second { second } else { first }
+        };
+        quads.iter().enumerate().flat_map(cut).collect::<Vec<_>>()
+    });
+    halves.collect()
+}
+
+/// Cuts a polygon with corners on faces by a fan about one of these: no other polygon has two of its other corners.
+fn fan(polygon: &[u32], triangles: &mut Vec<[u32; 3]>) {
+    // They come after all other vertices.
+    let first = (0..polygon.len()).max_by_key(|&n| polygon[n]).unwrap_or(0);
+    let at = |n: usize| polygon[(first + n) % polygon.len()];
+    triangles.extend((1..polygon.len() - 1).map(|n| [at(0), at(n), at(n + 1)]));
 }
 
 #[cfg(test)]

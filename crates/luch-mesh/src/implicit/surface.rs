@@ -22,7 +22,7 @@ pub enum Method {
 
 /// The surface where a field is zero.
 ///
-/// The field is evaluated only where its intervals cannot exclude the surface. Crossings are found to nearly double precision, so
+/// The field is evaluated only where its intervals cannot exclude the surface. Crossings are found to a hundred-millionth of a cell, so
 /// vertices of marching cubes lie on the surface itself; they get the gradient as normal. Dual contouring gives no normals: its
 /// vertices lie on edges, where there is more than one ([`crate::normals::creased`] finds them).
 ///
@@ -38,7 +38,7 @@ pub fn surface(
     let crossings = crossings(&grid, &signs, &numbers);
     let roots = roots(field, &grid, &crossings);
     if method == Method::DualContouring {
-        return Ok(contour(&grid, &signs, &numbers, &crossings, &roots));
+        return Ok(contour(field, &grid, &signs, &numbers, &crossings, &roots));
     }
     let mut vertices = Vertices { positions: Vec::new(), normals: Vec::new() };
     for (crossing, root) in crossings.iter().zip(&roots) {

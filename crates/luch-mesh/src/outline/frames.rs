@@ -50,3 +50,49 @@ pub(super) fn carried(frame: Frame, from: Station, to: Station) -> Frame {
     let right = right.reject_from_normalized(to.forward).normalize_or(frame.right);
     Frame { right, up: to.forward.cross(right) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Along a helix Frenet's frame turns by the torsion times the length; one that turns as little as it must stays
+    /// behind by just that. The error of two reflections falls with the fourth power of the step.
+    #[test]
+    fn frames_along_a_helix_do_not_turn() {
+        let (radius, rise) = (1.0, 0.5);
+        let speed = libm::sqrt(radius * radius + rise * rise);
+        let whole = 5.0;
+        let station = |t: f64| Station {
+            place: DVec3::new(radius * libm::cos(t), radius * libm::sin(t), rise * t),
+            forward: DVec3::new(-radius * libm::sin(t), radius * libm::cos(t), rise) / speed,
+        };
+        // Square to the helix, towards its axis, and the third.
+        let frenet = |t: f64| {
+            let right = DVec3::new(-libm::cos(t), -libm::sin(t), 0.0);
+            Frame { right, up: station(t).forward.cross(right) }
+        };
+        let error = |steps: u32| {
+            let at = |k: u32| station(whole * f64::from(k) / f64::from(steps));
+            let frame = (0..steps).fold(frenet(0.0), |frame, k| carried(frame, at(k), at(k + 1)));
+            let forward = at(steps).forward;
+            assert!((frame.right.cross(frame.up) - forward).length() < 1e-12);
+            let torsion = rise / (speed * speed);
+            let behind = frame.angle_to(frenet(whole));
+            (behind - torsion * whole * speed).abs()
+        };
+        let (coarse, fine) = (error(20), error(40));
+        assert!(coarse < 1e-3 && (14.0..18.0).contains(&(coarse / fine)), "{coarse} {fine}");
+    }
+
+    #[test]
+    fn first_frames_are_upright() {
+        for forward in [DVec3::X, DVec3::NEG_Z, DVec3::Y, DVec3::NEG_Y, DVec3::new(0.6, 0.64, 0.48)] {
+            let Frame { right, up } = Frame::at_start(forward);
+            assert!((right.cross(up) - forward).length() < 1e-12, "{forward}");
+            assert!(up.y > 0.0 || forward.y.abs() == 1.0, "{forward}: {up}");
+        }
+        assert_eq!(Frame::at_start(DVec3::Y), Frame { right: DVec3::X, up: DVec3::NEG_Z });
+        let turned = Frame::at_start(DVec3::X).turned(DVec2::from_array([0.0, 1.0]));
+        assert_eq!(Frame::at_start(DVec3::X).angle_to(turned), std::f64::consts::FRAC_PI_2);
+    }
+}

@@ -82,10 +82,14 @@ impl Kind {
     pub fn read(&self, text: &str, files: &mut dyn Files) -> Result<Value, String> {
         let wrong = || format!("found “{text}”, expected {}", self.accepted());
         Ok(match *self {
-            Self::Number { least, most } => {
-                let number = number(text).filter(|n| (least..=most).contains(n)).ok_or_else(wrong)?;
-                Value::Number(number)
-            }
+            Self::Number { least, most } => match number(text).ok_or_else(wrong)? {
+                number if (least..=most).contains(&number) => Value::Number(number),
+                // The wide bounds are told to who went past them.
+                number if number > 1e9 && number > most => {
+                    return Err(format!("found “{text}”, expected a number from {least:e} to {most:e}"));
+                }
+                _ => return Err(wrong()),
+            },
             Self::Count { least, most } => {
                 let count = text.trim().parse().ok().filter(|n| (least..=most).contains(n));
                 Value::Count(count.ok_or_else(wrong)?)

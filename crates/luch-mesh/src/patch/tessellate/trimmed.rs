@@ -94,21 +94,22 @@ pub(super) fn fill(
         let share = cell / DVec2::new(sheet.u.end(), sheet.v.end());
         PatchError::Crossing { patch: index, u: range[0].at(share.x), v: range[1].at(share.y) }
     };
+    let ends = |corners: &Vec<Node>, k: usize| [corners[k].cell, corners[(k + 1) % corners.len()].cell];
+    let segments: Vec<[DVec2; 2]> =
+        loops.iter().flat_map(|corners| (0..corners.len()).map(|k| ends(corners, k))).collect();
+    let outline = Outline::new(segments.iter().copied(), sheet.v.end() as usize);
+    sheet.add_grid(&segments, &outline);
     // The loops as chains of constrained edges.
-    let mut segments = Vec::new();
     for corners in &loops {
         let numbers: Option<Vec<u32>> = corners.iter().map(|node| sheet.insert(*node)).collect();
         let numbers = numbers.ok_or_else(|| crossing(&sheet, corners[0].cell))?;
         for (k, &from) in numbers.iter().enumerate() {
-            let to = numbers[(k + 1) % numbers.len()];
-            if !sheet.plane.constrain(from, to) {
+            if !sheet.plane.constrain(from, numbers[(k + 1) % numbers.len()]) {
                 return Err(crossing(&sheet, corners[k].cell));
             }
-            segments.push([from, to].map(|node| sheet.nodes[node as usize].cell));
         }
     }
-    let outline = Outline::new(segments.iter().copied(), sheet.v.end() as usize);
-    sheet.add_grid(&segments, &outline);
+    sheet.hold_breaks(&outline);
     sheet.refine(&outline)?;
     sheet.emit(&outline, output);
     Ok(())
@@ -276,7 +277,7 @@ impl Sheet<'_> {
         cuts.into_iter().map(|(_, cell)| Node { cell, vertex: None }).collect()
     }
 
-    /// Adds the corners of all cells that lie inside and not too near to a loop, and holds the triangulation to the breaks.
+    /// Adds the corners of all cells that lie inside and not too near to a loop.
     fn add_grid(&mut self, segments: &[[DVec2; 2]], outline: &Outline) {
         let (columns, rows) = (self.u.end() as usize, self.v.end() as usize);
         // Corners next to a segment would give slivers.
@@ -293,15 +294,29 @@ impl Sheet<'_> {
                 }
             }
         }
-        for y in 0..=rows {
-            for x in 0..=columns {
-                let cell = DVec2::new(x as f64, y as f64);
-                if !near[y * (columns + 1) + x] && outline.contains(cell) {
-                    self.insert(Node { cell, vertex: None });
+        // The hull first: whatever comes then lies inside.
+        for cell in [(0, 0), (columns, 0), (columns, rows), (0, rows)] {
+            self.insert(Node { cell: DVec2::new(cell.0 as f64, cell.1 as f64), vertex: None });
+        }
+        // From coarse to fine: a point then changes few triangles, while row by row each would change a whole fan.
+        let mut step = columns.max(rows).next_power_of_two();
+        while step > 0 {
+            let is_older = |k: usize| k.is_multiple_of(2 * step);
+            for y in (0..=rows).step_by(step) {
+                for x in (0..=columns).step_by(step) {
+                    let cell = DVec2::new(x as f64, y as f64);
+                    let is_new = !(is_older(x) && is_older(y)) || (x, y) == (0, 0);
+                    if is_new && !near[y * (columns + 1) + x] && outline.contains(cell) {
+                        self.insert(Node { cell, vertex: None });
+                    }
                 }
             }
+            step /= 2;
         }
-        // Lines along the inner breaks, from node to node.
+    }
+
+    /// Holds the triangulation to lines along the inner breaks, from node to node.
+    fn hold_breaks(&mut self, outline: &Outline) {
         for axis in [0, 1] {
             let breaks = if axis == 0 { &self.u } else { &self.v };
             let is_inner = |line: f64| line > 0.0 && line < breaks.end() && breaks.is_break(line);
