@@ -2,6 +2,7 @@
 
 mod materials;
 mod meshes;
+mod views;
 
 use crate::images::{Images, Pictures};
 use crate::scene_file::{

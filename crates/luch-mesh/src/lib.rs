@@ -47,6 +47,7 @@ pub mod polygon_mesh;
 pub mod query;
 pub mod repair;
 pub mod scatter;
+pub mod screen;
 mod sets;
 pub mod simplify;
 pub mod smooth;

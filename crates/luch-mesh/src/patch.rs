@@ -31,7 +31,7 @@ mod trim;
 pub use bezier::SurfacePoint;
 pub use curve::{Curve, CurvePoint};
 pub use error::PatchError;
-pub use fineness::{Fineness, ScreenView};
+pub use fineness::Fineness;
 pub use knots::{Basis, Interval, Knots};
 pub use model::{Patch, PatchModel};
 pub use surface::{Direction, Side, Surface};

@@ -12,6 +12,7 @@ mod sound;
 use std::fmt;
 
 use crate::PolygonMesh;
+pub(crate) use faces::with_faces;
 pub use faces::{Repaired, remove_unused};
 pub use holes::{Filling, MOST_CORNERS, fill_holes};
 pub use manifold::make_manifold;

@@ -14,6 +14,7 @@
 //! # Ok::<(), luch_mesh::subdivide::SubdivideError>(())
 //! ```
 
+mod adaptive;
 mod channel;
 mod crease;
 mod dart;
@@ -27,6 +28,7 @@ use glam::DVec3;
 use crate::PolygonMesh;
 use crate::polygon_mesh::{CornerAttribute, Crease, SharpVertex};
 use crate::repair::sound;
+pub use adaptive::{MOST_ADAPTIVE_FACES, MOST_ADAPTIVE_LEVELS, subdivide_adaptively};
 use channel::Channel;
 pub use crease::{crease_all, crease_by_angle};
 use masks::{Feature, Rule, feature};
@@ -103,6 +105,9 @@ pub enum SubdivideError {
         /// The levels that are possible.
         allowed: u32,
     },
+    /// The wish for fineness would make the result too large.
+    #[error("that fineness gives more than {MOST_ADAPTIVE_FACES} faces; ask for a coarser one")]
+    TooFine,
 }
 
 /// Subdivides a mesh. Faces that are none (fewer than three different corners, or not finite) are left out.

@@ -35,6 +35,7 @@ pub use value::{Kind, Value};
 pub use verb::{Action, Fallback, Keeps, Parameter, Verb};
 
 use crate::PolygonMesh;
+use crate::screen::ScreenView;
 
 /// Where steps get what lies outside the pipeline; libraries do not touch the disk.
 pub trait Files {
@@ -42,6 +43,10 @@ pub trait Files {
     fn bytes(&mut self, name: &str) -> Result<Vec<u8>, String>;
     /// A mesh: from a file in any format that the caller can read.
     fn mesh(&mut self, name: &str) -> Result<PolygonMesh, String>;
+    /// The cameras that see the mesh, in its own coordinates; none if it is not seen.
+    fn views(&mut self) -> Result<Vec<ScreenView>, String> {
+        Err("there is no camera here: pixels are for meshes of scenes".into())
+    }
 }
 
 /// There are no files.
@@ -69,6 +74,10 @@ impl Files for Unread {
 
     fn mesh(&mut self, _: &str) -> Result<PolygonMesh, String> {
         Ok(PolygonMesh::default())
+    }
+
+    fn views(&mut self) -> Result<Vec<ScreenView>, String> {
+        Ok(Vec::new())
     }
 }
 

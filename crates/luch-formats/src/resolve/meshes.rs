@@ -1,9 +1,11 @@
 //! Meshes: files are read, forms are made, operations are done.
 
+use super::views::Views;
 use super::{Names, Resolver};
 use crate::scene_file::{MeshOperation, MeshOrigin, MeshSource, SceneFile, Spanned, WorkshopStep};
 use crate::{Files, mesh_file};
 use luch_mesh::normals::{self, Weight};
+use luch_mesh::screen::ScreenView;
 use luch_mesh::weld::{weld_exact, weld_within};
 use luch_mesh::{Attribute, PolygonMesh, TriangleMesh, workshop};
 use luch_scene::{Id, Shape, Traced};
@@ -46,12 +48,13 @@ impl Resolver<'_> {
     pub(super) fn meshes(&mut self, file: &SceneFile) -> Meshes {
         let names = self.names("mesh", file.meshes.iter().map(|mesh| mesh.name.as_ref()));
         let mut shapes = Vec::with_capacity(file.meshes.len());
+        let views = Views::new(file);
         let mut triangles = 0;
         // The last file read, if the next mesh is made from it too.
         let mut last: Option<(PathBuf, TriangleMesh)> = None;
         for (place, source) in file.meshes.iter().enumerate() {
             let next = file.meshes.get(place + 1).map(|next| &next.value);
-            let mesh = self.mesh(&source.value, next, &mut last);
+            let mesh = self.mesh(Seen { views: &views, place }, &source.value, next, &mut last);
             triangles += mesh.as_ref().map_or(0, |mesh| mesh.triangles.len());
             if triangles > MOST_TRIANGLES {
                 let message =
@@ -67,20 +70,24 @@ impl Resolver<'_> {
 
     fn mesh(
         &mut self,
+        seen: Seen,
         source: &MeshSource,
         next: Option<&MeshSource>,
         last: &mut Option<(PathBuf, TriangleMesh)>,
     ) -> Option<TriangleMesh> {
         let mut model = match &source.origin {
-            MeshOrigin::Form(form) => Model::Polygons(self.step(form, None)?),
+            MeshOrigin::Form(form) => {
+                Model::Polygons(self.step(form, None, seen.before(&source.operations))?)
+            }
             // Faces of the file itself: a cage is of quads, not of their halves.
             MeshOrigin::File(name) if source.is_worked_on() => Model::Polygons(self.polygons(name)?),
             MeshOrigin::File(name) => Model::Triangles(self.triangles(name, next, last)?),
         };
-        for operation in &source.operations {
+        for (k, operation) in source.operations.iter().enumerate() {
             model = match operation {
                 MeshOperation::Workshop(step) => {
-                    Model::Polygons(self.step(step, Some(model.into_polygons()))?)
+                    let views = seen.before(&source.operations[k + 1..]);
+                    Model::Polygons(self.step(step, Some(model.into_polygons()), views)?)
                 }
                 other => {
                     let mut mesh = model.into_triangles();
@@ -141,7 +148,8 @@ impl Resolver<'_> {
     pub(super) fn height_field(&mut self, step: &WorkshopStep) -> Option<Id<Shape>> {
         let WorkshopStep { span, step } = step;
         let base = self.report.sources[span.source].path.clone();
-        match step.height_field(&mut Beside { files: self.files, base: &base }) {
+        let views = Err("heights are traced as they are".into());
+        match step.height_field(&mut Beside { files: self.files, base: &base, views }) {
             Ok(field) => Some(self.scene.add_shape(Shape::Traced(Traced::HeightField(Arc::new(field))))),
             Err(error) => {
                 self.report.add(span, error.to_string(), None);
@@ -150,10 +158,15 @@ impl Resolver<'_> {
         }
     }
 
-    fn step(&mut self, step: &WorkshopStep, mesh: Option<PolygonMesh>) -> Option<PolygonMesh> {
+    fn step(
+        &mut self,
+        step: &WorkshopStep,
+        mesh: Option<PolygonMesh>,
+        views: Result<Vec<ScreenView>, String>,
+    ) -> Option<PolygonMesh> {
         let WorkshopStep { span, step } = step;
         let base = self.report.sources[span.source].path.clone();
-        match step.run(mesh, &mut Beside { files: self.files, base: &base }) {
+        match step.run(mesh, &mut Beside { files: self.files, base: &base, views }) {
             Ok(mesh) => Some(mesh),
             Err(error) => {
                 self.report.add(span, error.to_string(), None);
@@ -174,6 +187,21 @@ impl MeshSource {
 struct Beside<'a> {
     files: &'a Files,
     base: &'a Path,
+    views: Result<Vec<ScreenView>, String>,
+}
+
+/// A mesh of the file and who sees it.
+#[derive(Clone, Copy)]
+struct Seen<'a> {
+    views: &'a Views,
+    place: usize,
+}
+
+impl Seen<'_> {
+    /// The views before some operations.
+    fn before(self, later: &[MeshOperation]) -> Result<Vec<ScreenView>, String> {
+        self.views.of(self.place, later)
+    }
 }
 
 impl workshop::Files for Beside<'_> {
@@ -184,6 +212,10 @@ impl workshop::Files for Beside<'_> {
     fn mesh(&mut self, name: &str) -> Result<PolygonMesh, String> {
         let read = mesh_file::read_mesh(&Files::beside(self.base, name), self.files);
         read.map(|read| read.mesh).map_err(|error| error.to_string())
+    }
+
+    fn views(&mut self) -> Result<Vec<ScreenView>, String> {
+        self.views.clone()
     }
 }
 

@@ -1,42 +1,17 @@
 //! How fine the triangles are to be.
 
-use glam::DVec3;
-
 use super::bezier::Bounds;
+use crate::screen::OnScreen;
 
 /// How fine the triangles are to be.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Fineness {
     /// No point of a triangle is farther than this from the surface point of the same parameters, in metres.
     Tolerance(f64),
     /// Each Bezier piece has so many pieces along u and v.
     Divisions(u32),
-    /// Seen from a camera no triangle is off by more than so many pixels.
-    Screen(ScreenView),
-}
-
-/// A camera, as far as sizes on its screen go.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ScreenView {
-    /// Where the camera is.
-    pub eye: DVec3,
-    /// Vertical angle of view, in radians, below half a turn.
-    pub field_of_view: f64,
-    /// Rows of the picture.
-    pub height_pixels: u32,
-    /// By how many pixels a triangle may be off.
-    pub error_pixels: f64,
-    /// Nearer than this nothing is judged, in metres; keeps the work bounded where the camera is inside a surface.
-    pub nearest: f64,
-}
-
-impl ScreenView {
-    /// The tolerance in metres for whatever lies in a ball: the length that covers `error_pixels` at its nearest point.
-    pub fn tolerance(&self, centre: DVec3, radius: f64) -> f64 {
-        let distance = (self.eye.distance(centre) - radius).max(self.nearest);
-        let pixel = 2.0 * libm::tan(self.field_of_view / 2.0) / f64::from(self.height_pixels.max(1));
-        self.error_pixels * pixel * distance
-    }
+    /// Seen from some cameras no triangle is off by more than so many pixels.
+    Screen(OnScreen),
 }
 
 /// Pieces along u and v.

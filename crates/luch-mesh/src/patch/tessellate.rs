@@ -42,6 +42,7 @@ impl PatchModel {
     /// # Errors
     /// If the wish is not sensible or would take more than [`MAX_TRIANGLES`], or a trimming is open or crosses itself.
     pub fn tessellate(&self, fineness: Fineness) -> Result<TriangleMesh, PatchError> {
+        let fineness = &fineness;
         check(fineness)?;
         let mut edges = SharedEdges::default();
         let mut total = 0u64;
@@ -78,22 +79,17 @@ impl PatchModel {
     }
 }
 
-fn check(fineness: Fineness) -> Result<(), PatchError> {
+fn check(fineness: &Fineness) -> Result<(), PatchError> {
     let sound = |number: f64| number.is_finite() && number > 0.0;
     let bad = match fineness {
-        Fineness::Tolerance(tolerance) => Some(tolerance).filter(|&t| !sound(t)),
+        Fineness::Tolerance(tolerance) => Some(*tolerance).filter(|&t| !sound(t)),
         Fineness::Divisions(_) => None,
-        Fineness::Screen(view) => {
-            let parts = [view.error_pixels, view.nearest, view.field_of_view];
-            let angle_fits = view.field_of_view < std::f64::consts::PI;
-            let all = parts.into_iter().all(sound) && angle_fits && view.eye.is_finite();
-            (!all).then_some(view.error_pixels)
-        }
+        Fineness::Screen(screen) => (!screen.is_sound()).then_some(screen.pixels),
     };
     bad.map_or(Ok(()), |tolerance| Err(PatchError::Tolerance { tolerance }))
 }
 
-fn pieces_of(patch: &Patch, fineness: Fineness, edges: &mut SharedEdges) -> Pieces {
+fn pieces_of(patch: &Patch, fineness: &Fineness, edges: &mut SharedEdges) -> Pieces {
     let [u_breaks, v_breaks] = patch.surface.knots().each_ref().map(|knots| {
         let domain = knots.domain();
         let fraction = |t: f64| if t == domain.end { 1.0 } else { (t - domain.start) / domain.length() };
@@ -107,7 +103,7 @@ fn pieces_of(patch: &Patch, fineness: Fineness, edges: &mut SharedEdges) -> Piec
         let share = if patch.trimming.is_some() { 0.5 } else { 1.0 };
         let wanted = match fineness {
             Fineness::Divisions(count) => {
-                Divisions { u: u64::from(count.max(1)), v: u64::from(count.max(1)) }
+                Divisions { u: u64::from((*count).max(1)), v: u64::from((*count).max(1)) }
             }
             _ => divisions(&bounds, tolerance_at(fineness, &net) * share),
         };
@@ -125,14 +121,14 @@ fn pieces_of(patch: &Patch, fineness: Fineness, edges: &mut SharedEdges) -> Piec
 }
 
 /// The tolerance for a piece, in metres.
-fn tolerance_at(fineness: Fineness, net: &Net) -> f64 {
+fn tolerance_at(fineness: &Fineness, net: &Net) -> f64 {
     match fineness {
-        Fineness::Tolerance(tolerance) => tolerance,
+        Fineness::Tolerance(tolerance) => *tolerance,
         Fineness::Divisions(_) => f64::INFINITY,
-        Fineness::Screen(view) => {
+        Fineness::Screen(screen) => {
             let centre = net.places().sum::<DVec3>() / net.points.len() as f64;
             let radius = net.places().map(|place| place.distance(centre)).fold(0.0, f64::max);
-            view.tolerance(centre, radius)
+            screen.length(centre, radius)
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::polygon_mesh::{CornerAttribute, HalfEdges};
 use crate::sets::DisjointSets;
 
 /// The mesh with only these faces, in this order. Positions stay. For meshes without holes.
-pub(super) fn with_faces(mesh: &PolygonMesh, faces: &[u32]) -> PolygonMesh {
+pub(crate) fn with_faces(mesh: &PolygonMesh, faces: &[u32]) -> PolygonMesh {
     let mut corners: Vec<u32> = Vec::with_capacity(mesh.corners.len());
     let mut face_ends = Vec::with_capacity(faces.len());
     for &face in faces {

@@ -3,6 +3,7 @@
 use super::verb::Fallback;
 use super::{Files, Value, Verb, WorkshopError, error};
 use crate::PolygonMesh;
+use crate::screen::OnScreen;
 use glam::DVec3;
 
 /// The values that a verb is called with; defaults are filled in.
@@ -95,6 +96,14 @@ impl Arguments {
     pub fn count_if_given(&self, name: &str) -> Option<u64> {
         match self.get(name) {
             Some(Value::Count(count)) => Some(*count),
+            _ => None,
+        }
+    }
+
+    /// Pixels on screens, if they were given.
+    pub fn on_screen(&self, name: &str) -> Option<&OnScreen> {
+        match self.get(name) {
+            Some(Value::OnScreen(screen)) => Some(screen),
             _ => None,
         }
     }

@@ -17,6 +17,11 @@ const DIVISIONS: Parameter = Parameter::optional(
     Kind::Count { least: 1, most: 4096 },
     "pieces along both directions of each Bezier patch, in place of a tolerance",
 );
+const PIXELS: Parameter = Parameter::optional(
+    "pixels",
+    Kind::Pixels,
+    "by how many pixels triangles may be off on the screen, in place of a tolerance; in scenes",
+);
 const RADIUS: Parameter = Parameter::new("radius", Kind::POSITIVE, "1", "radius in metres");
 
 /// The verbs of this group.
@@ -28,6 +33,7 @@ pub(super) const VERBS: &[Verb] = &[
             Parameter::required("file", Kind::File, "the .bpt or .patches file"),
             TOLERANCE,
             DIVISIONS,
+            PIXELS,
         ],
         example: "car-body.bpt --tolerance 0.01",
         action: Action::Make { closed: true, run: patches },
@@ -40,6 +46,7 @@ pub(super) const VERBS: &[Verb] = &[
             Parameter::new("columns", Kind::Count { least: 2, most: 26 }, "4", "points in a row"),
             TOLERANCE,
             DIVISIONS,
+            PIXELS,
         ],
         example: "--points 0,0,0,1,1,0,2,0,0,0,0,-1,1,0,-1,2,1,-1 --columns 3 --tolerance 0.05",
         action: Action::Make { closed: false, run: bezier_patch },
@@ -47,14 +54,14 @@ pub(super) const VERBS: &[Verb] = &[
     Verb {
         name: "car-body",
         summary: "The body of a car with wheels, about four metres long, from smoothly joined patches",
-        parameters: &[TOLERANCE, DIVISIONS],
+        parameters: &[TOLERANCE, DIVISIONS, PIXELS],
         example: "--divisions 1",
         action: Action::Make { closed: true, run: car_body },
     },
     Verb {
         name: "nurbs-sphere",
         summary: "An exact sphere as a rational surface, in triangles by tolerance",
-        parameters: &[RADIUS, TOLERANCE, DIVISIONS],
+        parameters: &[RADIUS, TOLERANCE, DIVISIONS, PIXELS],
         example: "--radius 1 --tolerance 0.05",
         action: Action::Make { closed: true, run: sphere },
     },
@@ -71,6 +78,7 @@ pub(super) const VERBS: &[Verb] = &[
             Parameter::new("minor", Kind::POSITIVE, "0.25", "radius of the tube, in metres"),
             TOLERANCE,
             DIVISIONS,
+            PIXELS,
         ],
         example: "--tolerance 0.05",
         action: Action::Make { closed: true, run: torus },
@@ -83,6 +91,7 @@ pub(super) const VERBS: &[Verb] = &[
             Parameter::new("height", Kind::POSITIVE, "2", "length along y, in metres"),
             TOLERANCE,
             DIVISIONS,
+            PIXELS,
         ],
         example: "--tolerance 0.05",
         action: Action::Make { closed: true, run: cylinder },
@@ -138,16 +147,19 @@ fn refused(error: PatchError) -> WorkshopError {
 
 /// The model in triangles, as finely as is asked for.
 fn triangles(model: &PatchModel, arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
-    let tolerance = arguments.number_if_given("tolerance");
-    let divisions = arguments.count_if_given("divisions");
-    let fineness = match (tolerance, divisions) {
-        (Some(_), Some(_)) => {
-            return Err(WorkshopError::of("divisions", "cannot be given beside a tolerance"));
-        }
-        (Some(tolerance), None) => Fineness::Tolerance(tolerance),
-        (None, Some(divisions)) => Fineness::Divisions(divisions as u32),
-        // Points in one place ask for nothing.
-        (None, None) => Fineness::Tolerance((model.extent() / 1000.0).max(f64::MIN_POSITIVE)),
-    };
+    let given = |name| arguments.get(name).is_some();
+    let wishes = ["tolerance", "divisions", "pixels"].map(given);
+    if let Some(second) = (0..3).filter(|&k| wishes[k]).nth(1) {
+        let name = ["tolerance", "divisions", "pixels"][second];
+        return Err(WorkshopError::of(name, "is another wish for fineness beside the one before; give one"));
+    }
+    // Points in one place ask for nothing.
+    let usual = || Fineness::Tolerance((model.extent() / 1000.0).max(f64::MIN_POSITIVE));
+    let tolerance = arguments.number_if_given("tolerance").map(Fineness::Tolerance);
+    let divisions = arguments.count_if_given("divisions").map(|count| Fineness::Divisions(count as u32));
+    // What nobody sees is left as it usually is.
+    let pixels = arguments.on_screen("pixels").filter(|screen| !screen.views.is_empty());
+    let pixels = pixels.map(|screen| Fineness::Screen(screen.clone()));
+    let fineness = tolerance.or(divisions).or(pixels).unwrap_or_else(usual);
     model.tessellate(fineness).map(|mesh| PolygonMesh::from(&mesh)).map_err(refused)
 }

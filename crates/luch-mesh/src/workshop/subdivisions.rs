@@ -3,7 +3,9 @@
 use super::{Action, Arguments, Keeps, Kind, Parameter, Verb, WorkshopError};
 use crate::PolygonMesh;
 use crate::polygon_mesh::SharpVertex;
+use crate::screen::OnScreen;
 use crate::subdivide::{self, Border, Scheme, Settings, UvRule};
+use glam::{DVec3, Vec3};
 
 /// Creases become less sharp with each level, and end.
 const KEEPS: Keeps = Keeps { closed: true, uvs: true, creases: false, faces: false, positions: false };
@@ -21,6 +23,11 @@ pub(super) const VERBS: &[Verb] = &[
                 "the rule: quads, triangles, without smoothing, triangles by three",
             ),
             Parameter::new("levels", Kind::Count { least: 0, most: 12 }, "1", "how often"),
+            Parameter::optional(
+                "pixels",
+                Kind::Pixels,
+                "divide where edges are longer than so many pixels on the screen, in place of levels; in scenes",
+            ),
             Parameter::new("limit", Kind::Flag, "false", "move the vertices onto the limit surface"),
             Parameter::new("normals", Kind::Flag, "false", "add the normals of the limit surface"),
             Parameter::new("border", Kind::Choice(&["smooth", "corners"]), "smooth", "what stays at borders"),
@@ -78,7 +85,25 @@ fn subdivide(mesh: PolygonMesh, arguments: &Arguments) -> Result<PolygonMesh, Wo
         limit: arguments.flag("limit"),
         normals: arguments.flag("normals"),
     };
+    if let Some(screen) = arguments.on_screen("pixels") {
+        if !matches!(settings.scheme, Scheme::CatmullClark | Scheme::Loop) {
+            return Err(WorkshopError::of("pixels", "is for the schemes catmull-clark and loop"));
+        }
+        let is_fine = |corners: &[Vec3]| is_fine(corners, screen);
+        return subdivide::subdivide_adaptively(&mesh, &settings, &is_fine)
+            .map_err(|error| WorkshopError::of("pixels", error.to_string()));
+    }
     subdivide::subdivide(&mesh, &settings).map_err(|error| WorkshopError::of("levels", error.to_string()))
+}
+
+/// Whether no edge is longer on the screen than it may be.
+fn is_fine(corners: &[Vec3], screen: &OnScreen) -> bool {
+    let place = |corner: &Vec3| corner.as_dvec3();
+    let centre = corners.iter().map(place).sum::<DVec3>() / corners.len().max(1) as f64;
+    let radius = corners.iter().map(|corner| place(corner).distance(centre)).fold(0.0, f64::max);
+    let most = screen.length(centre, radius);
+    let ends = corners.iter().zip(corners.iter().cycle().skip(1));
+    ends.map(|(a, b)| place(a).distance(place(b))).all(|length| length <= most)
 }
 
 fn crease(mut mesh: PolygonMesh, arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {

@@ -2,6 +2,7 @@
 
 use super::Files;
 use crate::PolygonMesh;
+use crate::screen::{OnScreen, ScreenView};
 use glam::DVec3;
 
 /// What may be given for a parameter.
@@ -39,6 +40,8 @@ pub enum Kind {
     File,
     /// The name of a mesh file; the verb gets the mesh.
     Mesh,
+    /// A number of pixels on the screens of the cameras that see the mesh.
+    Pixels,
 }
 
 impl Kind {
@@ -75,6 +78,7 @@ impl Kind {
             Self::Text => "text".into(),
             Self::File => "the name of a file".into(),
             Self::Mesh => "the name of a mesh file".into(),
+            Self::Pixels => "a number of pixels from 0.1 to 1000".into(),
         }
     }
 
@@ -120,6 +124,11 @@ impl Kind {
             Self::Text => Value::Text(text.into()),
             Self::File => Value::File(files.bytes(text)?),
             Self::Mesh => Value::Mesh(Box::new(files.mesh(text)?)),
+            Self::Pixels => {
+                let pixels = number(text).filter(|n| (0.1..=1000.0).contains(n)).ok_or_else(wrong)?;
+                let views: Vec<ScreenView> = files.views()?;
+                Value::OnScreen(OnScreen { views, pixels })
+            }
         })
     }
 }
@@ -145,6 +154,8 @@ pub enum Value {
     File(Vec<u8>),
     /// A mesh.
     Mesh(Box<PolygonMesh>),
+    /// Pixels and who sees them.
+    OnScreen(OnScreen),
 }
 
 fn number(text: &str) -> Option<f64> {

@@ -67,6 +67,7 @@ fn placeholder(kind: Kind) -> &'static str {
         Kind::Numbers => "NUMBERS",
         Kind::Flag => "YES",
         Kind::Choice(_) => "WORD",
+        Kind::Pixels => "PIXELS",
         Kind::Text => "TEXT",
         Kind::File | Kind::Mesh => "FILE",
     }

@@ -1,6 +1,7 @@
 use super::*;
 use crate::measure;
-use crate::patch::{ControlPoint, Curve, Keeps, ScreenView, Surface, TrimLoop, Trimming, shapes};
+use crate::patch::{ControlPoint, Curve, Keeps, Surface, TrimLoop, Trimming, shapes};
+use crate::screen::{OnScreen, ScreenView};
 use std::f64::consts::PI;
 
 fn noise(seed: u64, k: u64) -> f64 {
@@ -235,13 +236,8 @@ fn loops_that_are_open_or_cross_are_refused() {
 fn a_far_camera_asks_for_less() {
     let model = PatchModel::from(shapes::sphere(1.0).unwrap());
     let view = |distance: f64| {
-        Fineness::Screen(ScreenView {
-            eye: DVec3::new(0.0, 0.0, distance),
-            field_of_view: 0.8,
-            height_pixels: 720,
-            error_pixels: 0.5,
-            nearest: 0.01,
-        })
+        let view = ScreenView::perspective(DVec3::new(0.0, 0.0, distance), 0.8, 720, 0.01);
+        Fineness::Screen(OnScreen { views: vec![view], pixels: 0.5 })
     };
     let count = |distance: f64| {
         let mesh = model.tessellate(view(distance)).unwrap();

@@ -78,7 +78,7 @@ pub(super) fn fill(
     patch: &Patch,
     trimming: &Trimming,
     pieces: &Pieces,
-    fineness: Fineness,
+    fineness: &Fineness,
     edges: &SharedEdges,
     output: &mut Output,
 ) -> Result<(), PatchError> {
@@ -172,7 +172,7 @@ impl Sheet<'_> {
         &self,
         index: usize,
         trimming: &Trimming,
-        fineness: Fineness,
+        fineness: &Fineness,
         borders: &[Vec<Node>; 4],
     ) -> Result<Vec<Vec<Node>>, PatchError> {
         let end = DVec2::new(self.u.end(), self.v.end());
@@ -241,7 +241,7 @@ impl Sheet<'_> {
         Ok(loops)
     }
 
-    fn steps(&self, fineness: Fineness) -> Steps {
+    fn steps(&self, fineness: &Fineness) -> Steps {
         let mut steps = Steps {
             longest: DVec2::INFINITY,
             speed: DVec2::ZERO,
