@@ -2,6 +2,7 @@
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command speaks to people")]
 
 mod bench;
+mod figures;
 mod gallery;
 mod layers;
 
@@ -13,9 +14,10 @@ fn main() -> ExitCode {
     let result = match task.as_str() {
         "layers" => layers::check(&root()),
         "gallery" => gallery::render(&root()),
+        "figures" => figures::render(&root()),
         "check" => check(),
         "bench" => bench::run(&root(), &std::env::args_os().skip(2).collect::<Vec<_>>()),
-        _ => Err("usage: cargo run -p xtask -- check | layers | gallery | bench".to_owned()),
+        _ => Err("usage: cargo run -p xtask -- check | layers | gallery | figures | bench".to_owned()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -29,6 +29,7 @@ mod verb;
 
 pub use arguments::Arguments;
 pub use error::WorkshopError;
+pub use implicits::FormulaSurface;
 pub use pipeline::{Pipeline, Step};
 pub use reference::reference;
 pub use value::{Kind, Value};

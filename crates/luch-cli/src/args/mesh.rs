@@ -104,13 +104,20 @@ pub(crate) struct RunArgs {
 /// other, both ways.
 #[derive(Args, Debug)]
 #[command(
-    after_long_help = "Examples:\n  luch mesh compare scan.ply reduced.ply\n  luch mesh compare 'icosphere --subdivisions 3' 'icosphere --subdivisions 6'"
+    after_long_help = "Examples:\n  luch mesh compare scan.ply reduced.ply\n  luch mesh compare 'icosphere --subdivisions 3' 'icosphere --subdivisions 6'\n  luch mesh compare cylinder --resolutions 8,16,32,64 -o cylinder.png"
 )]
 pub(crate) struct CompareMeshesArgs {
     /// A mesh file or a pipeline
     pub(crate) a: String,
-    /// What it is held against
-    pub(crate) b: String,
+    /// What it is held against; without it the form itself, traced without triangles: sphere, icosphere, cylinder, cone, frustum,
+    /// disc or implicit
+    pub(crate) b: Option<String>,
+    /// Pieces of the meshes that are held against the form itself, one after another [default: 8,16,32,64; levels 1,2,3,4 for icosphere]
+    #[arg(long, value_name = "N,…", value_delimiter = ',', conflicts_with = "b", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub(crate) resolutions: Vec<u32>,
+    /// A picture of the form itself, its meshes, and below them eight times what differs
+    #[arg(short, long, value_name = "FILE", conflicts_with = "b")]
+    pub(crate) output: Option<PathBuf>,
     /// Points on each surface for the mean
     #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..=50_000_000))]
     pub(crate) samples: u32,

@@ -1,5 +1,8 @@
 //! `luch mesh compare`: how far two surfaces are apart.
 
+mod exact;
+mod pictures;
+
 use super::input::read_or_run;
 use crate::args::CompareMeshesArgs;
 use crate::failure::{Failure, Outcome};
@@ -9,7 +12,8 @@ use luch::mesh::query::{DeviationOptions, hausdorff};
 use serde_json::json;
 
 pub(super) fn run(args: &CompareMeshesArgs) -> Result<Outcome, Failure> {
-    let [a, b] = [&args.a, &args.b].map(|text| read_or_run(text).map(|mesh| mesh.triangulate()));
+    let Some(b) = &args.b else { return exact::run(args) };
+    let [a, b] = [&args.a, b].map(|text| read_or_run(text).map(|mesh| mesh.triangulate()));
     let (a, b) = (a?, b?);
     let options = DeviationOptions {
         samples: args.samples as usize,

@@ -4,6 +4,8 @@ mod formula;
 mod remesh;
 mod voxels;
 
+pub use formula::FormulaSurface;
+
 use super::{Arguments, Kind, Parameter, Verb, WorkshopError};
 use crate::PolygonMesh;
 use crate::implicit::{Field, ImplicitError, Method, Region, Sampling, surface};
@@ -20,6 +22,14 @@ pub(super) const VERBS: &[Verb] = &[
     remesh::SHELL,
     remesh::BLEND,
 ];
+
+/// The surface of a step of `implicit`.
+pub(super) fn formula_surface(verb: &Verb, arguments: &Arguments) -> Result<FormulaSurface, WorkshopError> {
+    match verb.name {
+        "implicit" => formula::formula_surface(arguments),
+        other => Err(WorkshopError::new(format!("`{other}` has no formula"))),
+    }
+}
 
 /// Normals of dual contouring are smooth over edges bent by less than this, in radians.
 const CREASE: f32 = 0.6;

@@ -1,7 +1,7 @@
 //! Steps one after another.
 
 use super::verb::Action;
-use super::{Arguments, Files, Kind, Verb, WorkshopError, find};
+use super::{Arguments, Files, FormulaSurface, Kind, NoFiles, Verb, WorkshopError, find};
 use crate::PolygonMesh;
 use crate::height_map::HeightField;
 
@@ -50,6 +50,11 @@ impl Step {
     /// The height field that `height-map` and `terrain` make, before it becomes triangles: for those who trace it as it is.
     pub fn height_field(&self, files: &mut dyn Files) -> Result<HeightField, WorkshopError> {
         super::heights::field(self.verb, &Arguments::read(self.verb, &self.given, files)?)
+    }
+
+    /// The formula of `implicit`, before its surface becomes triangles: for those who trace it as it is.
+    pub fn formula(&self) -> Result<FormulaSurface, WorkshopError> {
+        super::implicits::formula_surface(self.verb, &Arguments::read(self.verb, &self.given, &mut NoFiles)?)
     }
 
     /// Does it to a mesh; a verb that makes one wants none.

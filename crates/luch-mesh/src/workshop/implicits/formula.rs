@@ -76,7 +76,24 @@ fn told(error: SolidError) -> WorkshopError {
     }
 }
 
+/// What `implicit` was asked for, before it becomes triangles.
+#[derive(Clone, Debug)]
+pub struct FormulaSurface {
+    /// Zero on the surface, negative inside.
+    pub formula: Formula,
+    /// Where it is looked at.
+    pub region: Region,
+    /// Whether the sides of the box close the body.
+    pub closed: bool,
+}
+
 fn implicit(arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
+    let FormulaSurface { formula, region, closed } = formula_surface(arguments)?;
+    let field = Solid::Formula(formula).field().map_err(told)?;
+    mesh_of(&field, region, closed, arguments)
+}
+
+pub(in crate::workshop) fn formula_surface(arguments: &Arguments) -> Result<FormulaSurface, WorkshopError> {
     let &[ax, ay, az, bx, by, bz] = arguments.numbers("bounds") else {
         return Err(WorkshopError::of("bounds", "takes six numbers: x,y,z of one corner and of the other"));
     };
@@ -90,8 +107,7 @@ fn implicit(arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
         let (name, value) = pair.split_once('=').ok_or_else(wrong)?;
         formula = formula.with(name.trim(), value.trim().parse::<f64>().map_err(|_| wrong())?);
     }
-    let field = Solid::Formula(formula).field().map_err(told)?;
-    mesh_of(&field, region, !arguments.flag("open"), arguments)
+    Ok(FormulaSurface { formula, region, closed: !arguments.flag("open") })
 }
 
 fn gyroid(arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
