@@ -134,3 +134,26 @@ fn the_list_of_verbs() {
     let said = piped(&Workplace::empty(), &[&["verbs"]]);
     assert!(said.contains("Makes a mesh:") && said.contains("  subdivide "), "{said}");
 }
+
+#[test]
+fn a_form_is_held_against_its_meshes() {
+    let place = Workplace::empty();
+    let read = |form: &str, more: &[&str]| -> serde_json::Value {
+        let verb: Vec<&str> = ["compare", form, "--json"].into_iter().chain(more.iter().copied()).collect();
+        serde_json::from_str(&piped(&place, &[&verb])).unwrap()
+    };
+    let said = read("cylinder --radius 0.5", &["--resolutions", "8,16", "-o", "forms.png"]);
+    let meshes = said["meshes"].as_array().unwrap();
+    let distance = |k: usize| meshes[k]["hausdorff"].as_f64().unwrap();
+    // A chord of 1/8 of a circle is r (1 − cos(π/8)) away from it, against the mesh of 64 by r (1 − cos(π/64)) less.
+    assert!((distance(0) - 0.5 * (1.0 - 0.923_879_5)).abs() < 2e-3, "{said}");
+    assert!((3.5..4.5).contains(&(distance(0) / distance(1))), "{said}");
+    let image = |k: usize| meshes[k]["image_difference"].as_f64().unwrap();
+    assert!(image(0) > 2.0 * image(1) && image(1) > 0.0, "{said}");
+    assert!(place.path("forms.png").exists());
+    let ball =
+        read("implicit 'x^2+y^2+z^2-1' --bounds -1.2,-1.2,-1.2,1.2,1.2,1.2", &["--resolutions", "6,12"]);
+    assert!(ball["meshes"][0]["hausdorff"].as_f64() > ball["meshes"][1]["hausdorff"].as_f64(), "{ball}");
+    let refused = luch().args(["mesh", "compare", "torus"]).output().unwrap();
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("known as a mesh only"));
+}
