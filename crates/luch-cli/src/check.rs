@@ -31,6 +31,7 @@ fn examine(loaded: &Loaded, file: &str) -> Report {
     let bounds = bounds(scene);
     let meshes = meshes::examine(scene);
     let mut advice = used::advice(scene);
+    advice.extend(meshes::open_glass(scene, &meshes));
     advice.extend(place::advice(scene, &bounds));
     let texts = |problems: &[luch::formats::Warning]| problems.iter().map(ToString::to_string).collect();
     Report {

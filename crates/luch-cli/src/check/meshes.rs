@@ -1,7 +1,7 @@
 //! Each mesh: closed or not, and what it lacks.
 
 use luch::mesh::{TriangleMesh, clean, measure, weld};
-use luch::scene::{Scene, Shape};
+use luch::scene::{Id, Material, Scene, Shape, Surface};
 use serde::Serialize;
 
 /// One mesh.
@@ -57,6 +57,28 @@ impl MeshReport {
         }
         words.join("; ")
     }
+}
+
+/// Glass has an inside: on an open mesh light never comes out of it, or goes in where it did not come out.
+pub(crate) fn open_glass(scene: &Scene, meshes: &[MeshReport]) -> Vec<String> {
+    let is_glass = |id: &Id<Material>| {
+        matches!(scene.materials[id.index()].surface, Surface::Dielectric { .. })
+    };
+    let mut found = Vec::new();
+    for mesh in meshes.iter().filter(|mesh| !mesh.is_closed) {
+        let instances = scene.instances.iter().filter(|instance| instance.shape.index() == mesh.shape);
+        let materials = instances.flat_map(|instance| instance.materials.iter().map(move |id| (instance, id)));
+        for (instance, id) in materials.filter(|(_, id)| is_glass(id)).take(1) {
+            found.push(format!(
+                "object \"{}\": material \"{}\" is glass, but the mesh is no closed body ({}); refraction wants an inside: \
+                 `luch mesh repair` or `solidify` makes one",
+                instance.name,
+                scene.materials[id.index()].name,
+                mesh.closedness
+            ));
+        }
+    }
+    found
 }
 
 /// Every mesh of a scene.

@@ -106,7 +106,7 @@ impl Layout<'_> {
             format!("ply\nformat {} 1.0\nelement vertex {}\n", self.encoding.name(), self.split.len());
         let mut names = vec!["x", "y", "z"];
         names.extend(if self.has_normals { &["nx", "ny", "nz"][..] } else { &[] });
-        names.extend(if self.has_uvs { &["u", "v"][..] } else { &[] });
+        names.extend(if self.has_uvs { &["s", "t"][..] } else { &[] });
         names.extend(if self.has_colors { &["red", "green", "blue", "alpha"][..] } else { &[] });
         header.extend(names.iter().map(|name| format!("property float {name}\n")));
         let length = if self.has_long_faces { "uint" } else { "uchar" };
