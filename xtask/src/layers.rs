@@ -4,18 +4,19 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 /// The layers, lowest first. Crates of one layer do not see one another.
-const LAYERS: [&[&str]; 6] = [
+const LAYERS: [&[&str]; 7] = [
     &["luch-sampling", "luch-bvh", "luch-image", "luch-formula"],
     &["luch-mesh"],
     &["luch-scene"],
     &["luch-formats", "luch-render", "luch-preview"],
     &["luch"],
+    &["luch-lab"],
     &["luch-cli"],
 ];
 
 /// Where an outside crate may be used; anything not named here may be used anywhere.
 const ADDRESSES: [(&str, &[&str]); 10] = [
-    ("rayon", &["luch-bvh", "luch-render", "luch-mesh", "luch-preview"]),
+    ("rayon", &["luch-bvh", "luch-render", "luch-mesh", "luch-preview", "luch-lab"]),
     ("clap", &["luch-cli"]),
     ("ctrlc", &["luch-cli"]),
     ("png", &["luch-image"]),

@@ -1,0 +1,1 @@
+//! A Monte Carlo laboratory: generators and samplers measured, integrals with known truth, densities, and figures of all of it.
