@@ -1,1 +1,4 @@
 //! A Monte Carlo laboratory: generators and samplers measured, integrals with known truth, densities, and figures of all of it.
+
+pub mod generator;
+pub mod points;

@@ -1,0 +1,1 @@
+//! Tests that look for the faults of generators.
