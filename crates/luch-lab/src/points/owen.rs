@@ -77,16 +77,16 @@ pub(super) fn fill_all(rule: Rule, key: u64, dimensions: usize, out: &mut [f64])
     let mut offset = 0;
     for group in groups(rule, key, dimensions) {
         let width = group.partners.len();
-        // Shuffled groups need all indices up to the next power of two: the shuffle permutes aligned blocks, not prefixes.
-        let words = generate(&group, count, dimensions);
         match group.order {
             None => {
+                let words = generate(&group, count);
                 for (point, words) in out.chunks_exact_mut(dimensions).zip(words.chunks_exact(width)) {
                     for (out, &word) in point[offset..].iter_mut().zip(words) {
                         *out = unit(word);
                     }
                 }
             }
+            // The shuffle leads anywhere below 2³², so nothing made earlier helps.
             Some(order) => {
                 for (i, point) in out.chunks_exact_mut(dimensions).enumerate() {
                     let shuffled = hash::nested_scramble(i as u32, order);
@@ -101,10 +101,7 @@ pub(super) fn fill_all(rule: Rule, key: u64, dimensions: usize, out: &mut [f64])
 }
 
 /// The words of the first `count` points of a group in plain order, point after point.
-fn generate(group: &Group, count: usize, _dimensions: usize) -> Vec<u32> {
-    if group.order.is_some() {
-        return Vec::new();
-    }
+fn generate(group: &Group, count: usize) -> Vec<u32> {
     let width = group.partners.len();
     let mut words = vec![0u32; count * width];
     for (d, word) in words.iter_mut().enumerate().take(width) {
