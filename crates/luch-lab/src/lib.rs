@@ -1,4 +1,28 @@
 //! A Monte Carlo laboratory: generators and samplers measured, integrals with known truth, densities, and figures of all of it.
+//!
+//! | Question | Here |
+//! |---|---|
+//! | Where do random numbers come from, and are they any good? | [`generator`], [`generator::quality`] |
+//! | Where do points come from? | [`points`]: 22 rules in up to 64 dimensions |
+//! | How evenly do they lie? | [`measure`]: discrepancies, dispersion, spectra, nets |
+//! | How fast does the error fall? | [`slopes`] |
+//!
+//! The area of a disc by scrambled Sobol' points, and how even they are beside independent ones:
+//!
+//! ```
+//! use luch_lab::measure::l2_star;
+//! use luch_lab::points::Rule;
+//!
+//! let sobol = Rule::SobolOwen.points(1024, 2, 1, 0)?;
+//! let inside = sobol.iter().filter(|p| (p[0] - 0.5).powi(2) + (p[1] - 0.5).powi(2) <= 0.25).count();
+//! assert!((4.0 * inside as f64 / 1024.0 - std::f64::consts::PI).abs() < 0.05);
+//!
+//! let independent = Rule::from_name("independent").unwrap().points(1024, 2, 1, 0)?;
+//! assert!(l2_star(&sobol) < l2_star(&independent) / 5.0);
+//! # Ok::<(), luch_lab::points::PointsError>(())
+//! ```
+//!
+//! Everything is a function of its arguments and the same on every machine and any number of threads.
 
 pub mod generator;
 pub mod measure;

@@ -121,7 +121,7 @@ fn estimates(
     replicate: u64,
 ) -> Result<Vec<Vec<f64>>, PointsError> {
     let mut sums = vec![0.0; integrands.len()];
-    let mut add = |points: &[f64], sums: &mut [f64]| {
+    let add = |points: &[f64], sums: &mut [f64]| {
         for point in points.chunks_exact(dimensions) {
             for (sum, (integrand, _)) in sums.iter_mut().zip(integrands) {
                 *sum += integrand.value(point);
@@ -177,7 +177,7 @@ fn summarise(
     let n = squares.len() as u64;
     let mut slopes: Vec<f64> = (0..u64::from(settings.resamplings))
         .filter_map(|round| {
-            let pick = |i: u64| (u128::from(hash::word(key, round * n + i)) * u128::from(n) >> 64) as usize;
+            let pick = |i: u64| ((u128::from(hash::word(key, round * n + i)) * u128::from(n)) >> 64) as usize;
             let chosen: Vec<usize> = (0..n).map(pick).collect();
             fit(&errors(&chosen)).map(|fit| fit.slope)
         })

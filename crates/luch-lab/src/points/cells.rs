@@ -34,9 +34,9 @@ pub(super) fn factors(count: u64) -> Option<[u64; 2]> {
         .map(|m| [m, count / m])
 }
 
-/// A number below `bound` without bias worth mention: 32 bits times the bound (Lemire 2019, without rejection).
+/// A number below `bound` without bias worth mention: 64 bits times the bound (Lemire 2019, without rejection).
 fn below(stream: &mut Stream, bound: u64) -> u64 {
-    (u128::from(stream.next_native()) * u128::from(bound) >> 64) as u64
+    ((u128::from(stream.next_native()) * u128::from(bound)) >> 64) as u64
 }
 
 /// The numbers 0 … n − 1 in a random order (Fisher and Yates).

@@ -181,7 +181,7 @@ impl Axis {
 #[inline(always)]
 fn permuted(key: u64, base: u32, sibling: u64, digit: u32, image_of_zero: u32) -> u32 {
     let random = hash::word(!key, sibling) >> 32;
-    let factor = 1 + (random * u64::from(base - 1) >> 32) as u32;
+    let factor = 1 + ((random * u64::from(base - 1)) >> 32) as u32;
     (factor * digit + image_of_zero) % base
 }
 

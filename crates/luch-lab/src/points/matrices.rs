@@ -111,9 +111,10 @@ pub(super) fn progressive(key: u64) -> [Columns; 2] {
             equations.extend([(sides[0], choice), (sides[1], !choice)]);
         }
         let solution = solve(&equations);
-        for row in 0..height {
-            rows[0][row] |= ((solution >> row & 1) as u32) << column;
-            rows[1][row] |= ((solution >> (height + row) & 1) as u32) << column;
+        for (matrix, rows) in rows.iter_mut().enumerate() {
+            for (row, bits) in rows.iter_mut().enumerate().take(height) {
+                *bits |= ((solution >> (matrix * height + row) & 1) as u32) << column;
+            }
         }
     }
     rows.map(|rows| {

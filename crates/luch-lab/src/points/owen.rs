@@ -45,9 +45,9 @@ fn partners(columns: &Columns) -> Partners {
     std::array::from_fn(|m| {
         let (mut word, mut index) = (columns[m], 0u32);
         // Leading bits first; every bit above m has a reduced column, for the coordinate is a (0,1)-sequence.
-        for bit in 0..m {
-            if word >> (31 - bit) & 1 == 1
-                && let Some((column, names)) = reduced[bit]
+        for (bit, earlier) in reduced.iter().enumerate().take(m) {
+            if let Some((column, names)) = *earlier
+                && word >> (31 - bit) & 1 == 1
             {
                 word ^= column;
                 index ^= names;

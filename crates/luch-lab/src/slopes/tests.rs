@@ -20,9 +20,11 @@ fn means_are_those_of_a_fine_rule() {
 
 #[test]
 fn slopes_are_the_known_ones() {
-    let settings = SlopeSettings { resamplings: 0, ..SlopeSettings::default() };
     let mut wrong = Vec::new();
     for expected in EXPECTED {
+        // Shifted Halton points err by a few odd sizes, whose luck 48 replicates do not even out.
+        let replicates = if expected.rule == Rule::HaltonShifted { 192 } else { 48 };
+        let settings = SlopeSettings { resamplings: 0, replicates, ..SlopeSettings::default() };
         let rows = measure(expected.rule, expected.dimensions, &settings).unwrap();
         for (row, slope) in rows.iter().zip(expected.slopes) {
             let Some(slope) = slope else { continue };
