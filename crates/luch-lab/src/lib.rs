@@ -28,3 +28,8 @@ pub mod generator;
 pub mod measure;
 pub mod points;
 pub mod slopes;
+
+/// The README's example, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExample;
