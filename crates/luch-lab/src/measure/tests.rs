@@ -13,7 +13,7 @@ fn close(value: f64, expected: f64) {
 
 #[test]
 fn discrepancies_of_sobol_and_halton() {
-    // Computed once with an independent implementation (SciPy's qmc.discrepancy).
+    // Computed once with an independent implementation.
     let sobol = Rule::Sobol.points(64, 2, 0, 0).unwrap();
     close(l2_star(&sobol), 0.012_869_849_626_468_8);
     close(centred_squared(&sobol), 0.000_240_019_626_087_44);
