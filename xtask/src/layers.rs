@@ -15,7 +15,7 @@ const LAYERS: [&[&str]; 7] = [
 ];
 
 /// Where an outside crate may be used; anything not named here may be used anywhere.
-const ADDRESSES: [(&str, &[&str]); 10] = [
+const ADDRESSES: [(&str, &[&str]); 11] = [
     ("rayon", &["luch-bvh", "luch-render", "luch-mesh", "luch-preview", "luch-lab"]),
     ("clap", &["luch-cli"]),
     ("ctrlc", &["luch-cli"]),
@@ -24,6 +24,7 @@ const ADDRESSES: [(&str, &[&str]); 10] = [
     ("image", &["luch-image"]),
     ("earcut", &["luch-mesh"]),
     ("tempfile", &["luch-formats"]),
+    ("tiny-skia", &["luch-lab"]),
     ("flate2", &["luch-formats", "luch-mesh"]),
     ("roxmltree", &["luch-formats", "luch-mesh"]),
 ];
