@@ -254,10 +254,7 @@ mod tests {
     fn ticks_are_round_numbers() {
         assert_eq!(labels(0.0, 1.0, Scale::Linear), ["0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
         assert_eq!(labels(-3.0, 7.1, Scale::Linear), ["−2.5", "0", "2.5", "5.0"]);
-        assert_eq!(
-            labels(0.0, 2e7, Scale::Linear),
-            ["0", "0.4×10⁷", "0.8×10⁷", "1.2×10⁷", "1.6×10⁷", "2×10⁷"]
-        );
+        assert_eq!(labels(0.0, 2e7, Scale::Linear), ["0", "0.5×10⁷", "1×10⁷", "1.5×10⁷", "2×10⁷"]);
         assert_eq!(labels(-3.0, 1.0, Scale::Log10), ["10⁻³", "10⁻²", "10⁻¹", "1", "10"]);
         assert_eq!(labels(6.0, 20.0, Scale::Log2), ["2⁶", "2⁹", "2¹²", "2¹⁵", "2¹⁸"]);
     }

@@ -8,7 +8,7 @@ use glyphs::GLYPHS;
 const EM: f64 = 10.0;
 
 /// Room beside every letter, in units.
-const GAP: f64 = 1.45;
+const GAP: f64 = 1.6;
 
 /// A piece of an outline, in units, y upward.
 #[derive(Clone, Debug, PartialEq)]

@@ -71,7 +71,8 @@ pub(super) fn sized(figure: &Figure, width: f64) -> Drawing {
     } else {
         Rect { x: left, y: top, width: most, height: 0.46 * width }
     };
-    let x_ticks = spans[0].ticks(((plot.width / 80.0) as usize).clamp(2, 9));
+    let wanted = if figure.is_square { 6 } else { 9 };
+    let x_ticks = spans[0].ticks(((plot.width / 56.0) as usize).clamp(2, wanted));
     let frame = Frame { plot, x: spans[0].clone(), y: spans[1].clone() };
 
     drawing.shapes.push(Shape::Area { outlines: vec![corners(&plot)], paint: Paint::Panel, opacity: 1.0 });

@@ -196,7 +196,7 @@ pub(super) fn draw(layer: &Layer, frame: &Frame, shapes: &mut Vec<Shape>) {
                     [x.clamp(frame.plot.x, frame.plot.right()), y.clamp(frame.plot.y, frame.plot.bottom())]
                 })
                 .collect();
-            shapes.push(Shape::Area { outlines: vec![inside], paint, opacity: opacity.clamp(0.0, 1.0) });
+            shapes.push(Shape::Area { outlines: vec![inside], paint, opacity: pixels(*opacity, 0.0, 1.0) });
             let mut closed = outline.clone();
             closed.extend(outline.first());
             shapes.push(Shape::Lines { lines: clipped_line(&closed, &frame.plot), stroke: solid(1.4) });

@@ -3,7 +3,6 @@
 use super::axis::Span;
 use super::drawing::Rect;
 use super::drawing::clipped_line;
-use super::layout::wrapped;
 use super::marks;
 use super::theme::Theme;
 use super::{Dash, Figure, Ink, Layer, Mark, Raster};
@@ -98,8 +97,7 @@ pub(super) fn draw(figure: &Figure, columns: usize, depth: Depth) -> String {
     }
 
     let mut out = String::new();
-    let units = |columns: usize| columns as f64 * 6.2;
-    for line in wrapped(&figure.title, units(columns), 10.0, false, 3) {
+    for line in rows_of(&figure.title, columns, 3) {
         let _ = writeln!(out, "{}", bold(&line, depth));
     }
     legend(figure, columns, depth, &mut out);
@@ -126,9 +124,8 @@ pub(super) fn draw(figure: &Figure, columns: usize, depth: Depth) -> String {
         let indent = (gutter + width / 2).saturating_sub(label.chars().count() / 2);
         let _ = writeln!(out, "{}{label}", " ".repeat(indent.min(columns)));
     }
-    // Words are measured by the font's mean letter, so lines stay a little short of the width.
-    for line in wrapped(&figure.caption, units(columns), 10.0, false, 12) {
-        let _ = writeln!(out, "{}", cut(&line, columns));
+    for line in rows_of(&figure.caption, columns, 12) {
+        let _ = writeln!(out, "{line}");
     }
     out
 }
@@ -139,6 +136,26 @@ fn cut(text: &str, columns: usize) -> String {
         return clean.collect();
     }
     clean.take(columns.saturating_sub(1)).chain(['…']).collect()
+}
+
+/// A text in rows of whole words, `most` of them.
+fn rows_of(text: &str, columns: usize, most: usize) -> Vec<String> {
+    let mut rows: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        let word = cut(word, columns);
+        let fits = rows.last().is_some_and(|row| row.chars().count() + 1 + word.chars().count() <= columns);
+        if fits {
+            if let Some(row) = rows.last_mut() {
+                row.push(' ');
+                row.push_str(&word);
+            }
+        } else if rows.len() < most {
+            rows.push(word);
+        } else {
+            break;
+        }
+    }
+    rows
 }
 
 fn bold(text: &str, depth: Depth) -> String {
