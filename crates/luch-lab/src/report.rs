@@ -1,0 +1,259 @@
+//! One page of HTML with everything in it: text, tables, figures, and the command that repeats it.
+//!
+//! ```
+//! use luch_lab::report::{Report, Table};
+//!
+//! let report = Report::new("π by points")
+//!     .with_command("luch lab pi --samples 1000")
+//!     .text("Points that fall into the disc.")
+//!     .table(Table::new(["N", "estimate"]).row(["1000", "3.148"]));
+//! assert!(report.to_html().contains("luch lab pi"));
+//! ```
+
+use crate::figure::{Depth, Figure, Sheet};
+use serde::{Deserialize, Serialize};
+use std::fmt::Write;
+
+/// A page: a title, the command that repeats it, and sections.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Report {
+    /// The title.
+    pub title: String,
+    /// What to type to make the page again.
+    pub command: String,
+    /// What stands on the page.
+    pub sections: Vec<Section>,
+}
+
+/// A part of a page.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Section {
+    /// A heading.
+    Heading(String),
+    /// A paragraph.
+    Text(String),
+    /// Rows of numbers.
+    Table(Table),
+    /// A figure.
+    Figure(Figure),
+    /// Figures side by side.
+    Sheet(Sheet),
+}
+
+/// Rows of texts under a heading.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Table {
+    /// The names of the columns.
+    pub head: Vec<String>,
+    /// The rows; missing fields are empty.
+    pub rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// A table without rows.
+    pub fn new<S: Into<String>>(head: impl IntoIterator<Item = S>) -> Self {
+        Self { head: head.into_iter().map(Into::into).collect(), rows: Vec::new() }
+    }
+
+    /// The same with one row more.
+    #[must_use]
+    pub fn row<S: Into<String>>(mut self, row: impl IntoIterator<Item = S>) -> Self {
+        self.rows.push(row.into_iter().map(Into::into).collect());
+        self
+    }
+
+    /// The table as lines of text with columns below each other; numbers stand to the right.
+    pub fn to_text(&self) -> String {
+        let columns = self.rows.iter().map(Vec::len).chain([self.head.len()]).max().unwrap_or(0);
+        let field = |row: &[String], at: usize| row.get(at).cloned().unwrap_or_default();
+        let widths: Vec<usize> = (0..columns)
+            .map(|at| {
+                let rows = self.rows.iter().map(|row| field(row, at).chars().count());
+                rows.chain([field(&self.head, at).chars().count()]).max().unwrap_or(0)
+            })
+            .collect();
+        let mut out = String::new();
+        for row in std::iter::once(&self.head).chain(&self.rows) {
+            let mut line = String::new();
+            for (at, width) in widths.iter().enumerate() {
+                let text = field(row, at);
+                let blank = " ".repeat(width - text.chars().count());
+                let is_left = !self.rows.iter().any(|row| is_number(&field(row, at)));
+                let _ =
+                    if is_left { write!(line, "{text}{blank}  ") } else { write!(line, "{blank}{text}  ") };
+            }
+            let _ = writeln!(out, "{}", line.trim_end());
+        }
+        out
+    }
+}
+
+/// Whether a field is aligned as a number.
+fn is_number(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '-' | '−' | '+' | '.' | '±'))
+}
+
+impl Report {
+    /// A page without sections.
+    pub fn new(title: impl Into<String>) -> Self {
+        Self { title: title.into(), ..Self::default() }
+    }
+
+    /// The same with the command that repeats it.
+    #[must_use]
+    pub fn with_command(mut self, command: impl Into<String>) -> Self {
+        self.command = command.into();
+        self
+    }
+
+    /// The same with a section more.
+    #[must_use]
+    pub fn with(mut self, section: Section) -> Self {
+        self.sections.push(section);
+        self
+    }
+
+    /// The same with a heading more.
+    #[must_use]
+    pub fn heading(self, text: impl Into<String>) -> Self {
+        self.with(Section::Heading(text.into()))
+    }
+
+    /// The same with a paragraph more.
+    #[must_use]
+    pub fn text(self, text: impl Into<String>) -> Self {
+        self.with(Section::Text(text.into()))
+    }
+
+    /// The same with a table more.
+    #[must_use]
+    pub fn table(self, table: Table) -> Self {
+        self.with(Section::Table(table))
+    }
+
+    /// The same with a figure more.
+    #[must_use]
+    pub fn figure(self, figure: Figure) -> Self {
+        self.with(Section::Figure(figure))
+    }
+
+    /// The same with a sheet more.
+    #[must_use]
+    pub fn sheet(self, sheet: Sheet) -> Self {
+        self.with(Section::Sheet(sheet))
+    }
+
+    /// The page; it loads nothing from anywhere and follows the reader's light or dark theme.
+    pub fn to_html(&self) -> String {
+        let title = escaped(&self.title);
+        let mut out = format!(
+            "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\"><title>{title}</title>\n<style>{STYLE}</style></head><body>\n<h1>{title}</h1>\n"
+        );
+        for section in &self.sections {
+            let _ = match section {
+                Section::Heading(text) => writeln!(out, "<h2>{}</h2>", escaped(text)),
+                Section::Text(text) => writeln!(out, "<p>{}</p>", escaped(text)),
+                Section::Table(table) => writeln!(out, "{}", html_of(table)),
+                Section::Figure(figure) => writeln!(out, "<figure>{}</figure>", figure.to_svg()),
+                Section::Sheet(sheet) => writeln!(out, "<figure class=\"wide\">{}</figure>", sheet.to_svg()),
+            };
+        }
+        if !self.command.is_empty() {
+            let _ = writeln!(out, "<h2>Again</h2>\n<pre>{}</pre>", escaped(&self.command));
+        }
+        out.push_str("</body></html>\n");
+        out
+    }
+
+    /// The page as lines of text.
+    pub fn to_terminal(&self, columns: usize, depth: Depth) -> String {
+        let mut out = format!("{}\n\n", self.title);
+        for section in &self.sections {
+            match section {
+                Section::Heading(text) => out.push_str(&format!("\n{text}\n")),
+                Section::Text(text) => out.push_str(&format!("{text}\n")),
+                Section::Table(table) => out.push_str(&table.to_text()),
+                Section::Figure(figure) => out.push_str(&figure.to_terminal(columns, depth)),
+                Section::Sheet(sheet) => out.push_str(&sheet.to_terminal(columns, depth)),
+            }
+            out.push('\n');
+        }
+        if !self.command.is_empty() {
+            out.push_str(&format!("Again: {}\n", self.command));
+        }
+        out
+    }
+
+    /// The page as data: all numbers of all figures.
+    pub fn to_json(&self) -> String {
+        // Texts, lists and numbers only: nothing that could fail.
+        serde_json::to_string(self).unwrap_or_default()
+    }
+}
+
+const STYLE: &str = "\
+:root{color-scheme:light dark}\
+body{font:16px/1.55 system-ui,-apple-system,'Segoe UI',Roboto,sans-serif;max-width:46rem;margin:2.5rem auto;padding:0 1rem;color:#1b1f24;background:#fff}\
+h1{font-size:1.7rem;line-height:1.2}h2{font-size:1.2rem;margin-top:2.2rem}\
+figure{margin:1.5rem 0;overflow-x:auto}figure svg{max-width:100%;height:auto}\
+table{border-collapse:collapse;font-variant-numeric:tabular-nums;margin:1rem 0;display:block;overflow-x:auto}\
+th,td{padding:.25rem .8rem;border-bottom:1px solid #e6e9ed;text-align:left}td.n,th.n{text-align:right}\
+pre{background:#f4f6f8;padding:.7rem 1rem;overflow-x:auto;border-radius:4px}\
+@media(prefers-color-scheme:dark){body{color:#e8eaed;background:#16181d}th,td{border-color:#2e333b}pre{background:#1c1f25}}";
+
+fn html_of(table: &Table) -> String {
+    let class = |at: usize| {
+        let holds = table.rows.iter().any(|row| row.get(at).is_some_and(|text| is_number(text)));
+        if holds { " class=\"n\"" } else { "" }
+    };
+    let line = |row: &[String], tag: &str| {
+        let fields = row.iter().enumerate();
+        let fields = fields.map(|(at, text)| format!("<{tag}{}>{}</{tag}>", class(at), escaped(text)));
+        format!("<tr>{}</tr>", fields.collect::<String>())
+    };
+    let rows: String = table.rows.iter().map(|row| line(row, "td") + "\n").collect();
+    format!("<table><thead>{}</thead><tbody>\n{rows}</tbody></table>", line(&table.head, "th"))
+}
+
+fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            c if c.is_control() && c != '\n' => out.push('�'),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figure::Ink;
+
+    #[test]
+    fn pages_are_whole_and_safe() {
+        let figure = Figure::new("f").line("", Ink::Blue, vec![[0.0, 0.0], [1.0, 1.0]]);
+        let table = Table::new(["name", "<N>"]).row(["a", "1"]).row(["b"]);
+        assert_eq!(table.to_text(), "name  <N>\na       1\nb\n");
+        let report = Report::new("<script>")
+            .with_command("luch lab x --density \"a & b\"")
+            .heading("h")
+            .text("t")
+            .table(table)
+            .figure(figure.clone())
+            .sheet(Sheet::new("s", 2, vec![figure.clone(), figure]));
+        let html = report.to_html();
+        assert!(!html.contains("<script") && !html.contains("http://") || html.matches("http").count() == 2);
+        assert!(html.contains("a &amp; b") && html.contains("<svg") && html.ends_with("</html>\n"));
+        assert!(!html.contains("src=") && !html.contains("@import"));
+        assert!(report.to_terminal(60, Depth::Letters).contains("Again: luch lab x"));
+        let back: Report = serde_json::from_str(&report.to_json()).unwrap();
+        assert_eq!(back, report);
+    }
+}
