@@ -1,6 +1,10 @@
 //! Draws one figure of every kind into a folder: `cargo run -p luch-lab --example gallery -- FOLDER`.
 
+use luch_lab::density::{CENTERED, dimensions, dimensions_figure, normal_scan, square_sheet};
 use luch_lab::figure::*;
+use luch_lab::integral::{HashedPoints, Integral, SequencePoints};
+use luch_lab::problem::Problem;
+use luch_sampling::Sequence;
 
 fn main() -> std::io::Result<()> {
     let folder = std::env::args().nth(1).unwrap_or_else(|| "gallery".into());
@@ -78,6 +82,30 @@ fn main() -> std::io::Result<()> {
     write("heat", &heat)?;
     write("histogram", &histogram)?;
     write("letters", &letters)?;
+    for name in ["pi", "acute", "cos77-normal", "lamp-rectangle", "edge", "glossy"] {
+        let Some(problem) = Problem::named(name) else { continue };
+        let run = problem.run(1 << 14, &HashedPoints { seed: 1 });
+        write(&format!("problem-{name}"), &run.figure)?;
+        write(&format!("progress-{name}"), &run.progress)?;
+    }
+    let points = HashedPoints { seed: 1 };
+    let sobol = SequencePoints { sequence: Sequence::Sobol, seed: 1 };
+    if let Ok(square) = square_sheet(CENTERED, &sobol, 1000) {
+        std::fs::write(format!("{folder}/square.png"), square.to_png(PngOptions::default()))?;
+    }
+    let sizes: Vec<u64> = (6..=14).map(|k| 1 << k).collect();
+    if let Ok(study) = dimensions(&[1, 2, 5, 10, 20], &sizes, 24, &points, &sobol) {
+        let sheet = dimensions_figure(&study);
+        std::fs::write(
+            format!("{folder}/dimensions.png"),
+            sheet.to_png(PngOptions { theme: Theme::Dark, scale: 1.5 }),
+        )?;
+    }
+    if let Ok(bell) = Integral::new("cos(x)^77", "x=-pi/2..pi/2")
+        && let Some(scan) = normal_scan(&bell, 0.0, 0.07, 0.6, 200)
+    {
+        write("scan", &scan.figure)?;
+    }
     std::fs::write(format!("{folder}/sheet.png"), sheet.to_png(PngOptions::default()))?;
     std::fs::write(format!("{folder}/sheet.svg"), sheet.to_svg())
 }

@@ -158,12 +158,13 @@ pub fn mis(
             });
             square - mean * mean
         };
-        match kind {
-            // Two samples of the one technique, for as much work.
+        let variance = match kind {
+            // Two samples of the one technique, for as much work. What overflows stands for no bound at all.
             MisWeights::First => of(0) / 2.0,
             MisWeights::Second => of(1) / 2.0,
             _ => of(0) + of(1),
-        }
+        };
+        if variance.is_nan() { f64::INFINITY } else { variance }
     };
     let pairs = pairs.clamp(2, 1 << 24);
     let mut numbers = vec![0.0; 2 * pairs];

@@ -4,12 +4,16 @@ use crate::figure::{Axis, Figure, Ink};
 use luch_sampling::{Estimate, hash};
 use serde::Serialize;
 
-/// A sum of two stages, as a path has them: the first gives a weight, and the second, which is dearer, an amount for that weight.
+/// A sum of two stages, as a path has them: the first gives something at once and a weight, the second an amount for that weight.
 ///
-/// The estimate is `weight × amount`, with independent weight and amount. Going on with rate q (below 1 by roulette, above 1 by
+/// The estimate is `direct + weight × amount`, all three independent. Going on with rate q (below 1 by roulette, above 1 by
 /// splitting into q parts) costs `first_cost + q second_cost`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct TwoStages {
+    /// Mean of what the first stage gives at once.
+    pub direct_mean: f64,
+    /// Variance of that.
+    pub direct_variance: f64,
     /// Mean of the weight.
     pub weight_mean: f64,
     /// Variance of the weight.
@@ -29,13 +33,14 @@ impl TwoStages {
     /// rate says and one more by chance.
     ///
     /// Given the weight w, the second stages number n with mean q; the estimate w/q·Σ amounts has the variance
-    /// w²(v/q + m² Var(n)/q²), v and m being variance and mean of the amount.
+    /// w²(v/q + m² Var(n)/q²) and that of the direct part, v and m being variance and mean of the amount.
     pub fn variance(&self, rate: f64) -> f64 {
         let fraction = rate - rate.floor();
         let number_variance = fraction * (1.0 - fraction);
         let weight_square = self.weight_variance + self.weight_mean * self.weight_mean;
         let m2 = self.amount_mean * self.amount_mean;
-        self.weight_variance * m2
+        self.direct_variance
+            + self.weight_variance * m2
             + weight_square * (self.amount_variance / rate + m2 * number_variance / (rate * rate))
     }
 
@@ -49,10 +54,7 @@ impl TwoStages {
         self.variance(rate) * self.cost(rate)
     }
 
-    /// The rate of least work, from 1/64 to 64.
-    ///
-    /// Where chance did not add to the variance it would be √(E[w²] v first_cost / (Var(w) m² second_cost)), as in
-    /// Hammersley and Handscomb's two-stage sampling; whole numbers above 1 and roulette below are tried around it.
+    /// The rate of least work, from 1/64 to 64: roulette in steps of 1/256, splitting into whole parts.
     pub fn best_rate(&self) -> f64 {
         let rates = (1..=64)
             .map(f64::from)
@@ -74,7 +76,8 @@ impl TwoStages {
                 let number = rate.floor() as u64 + extra;
                 let amounts =
                     (0..number).map(|i| coin(self.amount_mean, self.amount_variance, hash::word(key, 2 + i)));
-                weight / rate * amounts.sum::<f64>()
+                let direct = coin(self.direct_mean, self.direct_variance, hash::word(key, 2 + number));
+                direct + weight / rate * amounts.sum::<f64>()
             })
             .collect()
     }

@@ -67,20 +67,22 @@ fn a_control_variate_saves_what_its_correlation_says() {
 #[test]
 fn roulette_and_splitting_by_variance_times_time() {
     let dear = TwoStages {
-        weight_mean: 1.0,
-        weight_variance: 4.0,
+        direct_mean: 1.0,
+        direct_variance: 4.0,
+        weight_mean: 0.2,
+        weight_variance: 0.01,
         amount_mean: 1.0,
         amount_variance: 0.01,
         first_cost: 1.0,
         second_cost: 50.0,
     };
     let uncertain = TwoStages {
+        direct_variance: 0.1,
         weight_mean: 1.0,
-        weight_variance: 0.1,
-        amount_mean: 1.0,
         amount_variance: 9.0,
         first_cost: 20.0,
         second_cost: 1.0,
+        ..dear
     };
     assert!(
         dear.best_rate() < 1.0 && uncertain.best_rate() > 1.0,
@@ -91,7 +93,8 @@ fn roulette_and_splitting_by_variance_times_time() {
     for stage in [dear, uncertain] {
         for rate in [0.25, 1.0, 2.0, 3.5] {
             let played = stage.play(rate, 200_000, 5);
-            assert!(played.z_score(1.0).unwrap().abs() < 4.0, "{stage:?} at {rate}");
+            let truth = stage.direct_mean + stage.weight_mean * stage.amount_mean;
+            assert!(played.z_score(truth).unwrap().abs() < 4.0, "{stage:?} at {rate}");
             assert!(
                 (played.variance().unwrap() / stage.variance(rate) - 1.0).abs() < 0.05,
                 "{stage:?} at {rate}"

@@ -60,7 +60,7 @@ impl Scale {
 
     /// The number as it is measured along the axis; `None` if it has no place.
     pub(super) fn measure(self, value: f64) -> Option<f64> {
-        if !(value.abs() <= GREATEST) {
+        if value.is_nan() || value.abs() > GREATEST {
             return None;
         }
         match self {

@@ -63,7 +63,7 @@ fn find(character: char) -> Glyph {
 
 /// The width of a line of text.
 pub(super) fn width(text: &str, size: f64, is_bold: bool) -> f64 {
-    let units: f64 = text.chars().map(|character| advance(character)).sum();
+    let units: f64 = text.chars().map(advance).sum();
     let wider = if is_bold { 1.06 } else { 1.0 };
     units * size / EM * wider
 }

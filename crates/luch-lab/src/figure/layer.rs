@@ -45,6 +45,7 @@ pub enum Mark {
         /// Solid, dashed or dotted.
         dash: Dash,
         /// In pixels.
+        #[serde(deserialize_with = "number")]
         width: f64,
     },
     /// Points.
@@ -55,6 +56,7 @@ pub enum Mark {
         /// Their form.
         marker: Marker,
         /// Pixels across.
+        #[serde(deserialize_with = "number")]
         size: f64,
     },
     /// Discs whose area is their weight.
@@ -66,6 +68,7 @@ pub enum Mark {
         #[serde(deserialize_with = "numbers")]
         weights: Vec<f64>,
         /// Pixels across for weight 1.
+        #[serde(deserialize_with = "number")]
         size: f64,
     },
     /// Arrows.
@@ -98,6 +101,7 @@ pub enum Mark {
         #[serde(deserialize_with = "pairs")]
         points: Vec<[f64; 2]>,
         /// How much it hides, 0 to 1.
+        #[serde(deserialize_with = "number")]
         opacity: f64,
     },
     /// Numbers over a rectangle as colours.

@@ -263,7 +263,9 @@ fn sample(ink: Ink, mark: &Mark, [x, y]: [f64; 2], shapes: &mut Vec<Shape>) {
         Mark::Arrows(_) => shapes.push(line(1.4, Dash::Solid)),
         Mark::Band(_) => shapes.push(block(0.3)),
         Mark::Bars { .. } => shapes.push(block(0.75)),
-        Mark::Polygon { opacity, .. } => shapes.push(block(opacity.max(0.15).min(1.0))),
+        Mark::Polygon { opacity, .. } => {
+            shapes.push(block(if *opacity > 0.15 { opacity.min(1.0) } else { 0.15 }))
+        }
         Mark::Heat(_) | Mark::Slope { .. } | Mark::Level(_) | Mark::Place(_) | Mark::Note { .. } => {}
     }
 }

@@ -185,7 +185,8 @@ impl AxisDensity {
                     let flip = if ends[0] > 0.0 { -1.0 } else { 1.0 };
                     let [a, b] = ends.map(|end| normal_cumulative(flip * end));
                     let share = (b - a).abs();
-                    (!(share > 1e-290)).then(|| "the normal distribution has no weight in the domain".into())
+                    (share.is_nan() || share <= 1e-290)
+                        .then(|| "the normal distribution has no weight in the domain".into())
                 }),
             Self::Exponential { rate } => positive(*rate, "the rate").or_else(|| {
                 (!side.low.is_finite()).then(|| "exponential needs a finite lower end".to_owned())
@@ -202,10 +203,10 @@ impl AxisDensity {
             }),
             Self::Mixture(parts) => {
                 let total: f64 = parts.iter().map(|part| part.share).sum();
-                if let Some(part) = parts.iter().find(|part| !(part.share > 0.0)) {
+                if let Some(part) = parts.iter().find(|part| part.share.is_nan() || part.share <= 0.0) {
                     return Some(format!("the shares of a mixture must be positive, not {}", part.share));
                 }
-                if !((total - 1.0).abs() < 1e-9) {
+                if total.is_nan() || (total - 1.0).abs() >= 1e-9 {
                     return Some(format!("the shares of a mixture must add up to 1, not {total}"));
                 }
                 parts.iter().find_map(|part| part.density.problem(side))

@@ -61,7 +61,7 @@ impl Domain {
             };
             let low = constant(text, from, &range[..dots])?;
             let high = constant(text, from + dots + 2, &range[dots + 2..])?;
-            if !(low < high) {
+            if low >= high {
                 let message = format!("the lower end {low} is not below the upper end {high}");
                 return Err(TextError::new(message, text, from));
             }

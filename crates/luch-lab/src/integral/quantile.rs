@@ -19,6 +19,7 @@ fn polynomial(x: f64, coefficients: &[f64]) -> f64 {
 /// The standard normal number below which a number lies with probability `p`: right to about 16 digits. Infinite at 0 and 1.
 ///
 /// Rational approximations of Wichura, "Algorithm AS 241: the percentage points of the normal distribution" (1988).
+#[expect(clippy::excessive_precision, reason = "as they were published")]
 pub(crate) fn normal_quantile(p: f64) -> f64 {
     let q = p - 0.5;
     if q.abs() <= 0.425 {
@@ -46,7 +47,7 @@ pub(crate) fn normal_quantile(p: f64) -> f64 {
         return q * polynomial(r, &A) / polynomial(r, &B);
     }
     let tail = if q < 0.0 { p } else { 1.0 - p };
-    if !(tail > 0.0) {
+    if tail.is_nan() || tail <= 0.0 {
         return if p.is_nan() { f64::NAN } else { q.signum() * f64::INFINITY };
     }
     let r = (-libm::log(tail)).sqrt();

@@ -177,7 +177,7 @@ fn the_rule_reaches_its_target_and_warns() {
 #[test]
 fn the_interval_holds_the_truth_as_often_as_it_says() {
     let target = Target::parse("rel 0.02 @ 90%").unwrap();
-    let runs = 50;
+    let runs = 32;
     let points =
         |run| -> Box<dyn Points> { Box::new(SequencePoints { sequence: Sequence::Sobol, seed: 1000 + run }) };
     let measured = coverage(&points, target, 1 << 22, runs);
