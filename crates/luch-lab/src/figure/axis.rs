@@ -179,9 +179,22 @@ impl Span {
         ticks
     }
 
-    /// Less than about one power of ten: plain numbers.
+    /// About one power of ten: plain numbers, at 1, 2 and 5 of each power or, over less, at equal steps.
     fn ticks_within_decade(&self) -> Vec<Tick> {
         let (low, high) = (libm::pow(10.0, self.low), libm::pow(10.0, self.high));
+        if self.high - self.low > 0.6 {
+            let powers = libm::floor(self.low) as i64..=libm::floor(self.high) as i64;
+            let ticks = powers.flat_map(|exponent| {
+                let unit = libm::pow(10.0, exponent as f64);
+                (1..10).map(move |digit| {
+                    let value = f64::from(digit) * unit;
+                    let said = matches!(digit, 1 | 2 | 5);
+                    let label = if said { number(value, unit, value) } else { String::new() };
+                    Tick { at: libm::log10(value), label }
+                })
+            });
+            return ticks.filter(|tick| (self.low..=self.high).contains(&tick.at)).collect();
+        }
         let plain = Self { scale: Scale::Linear, low, high };
         let ticks = plain.linear_ticks(5).into_iter().filter(|tick| tick.at > 0.0);
         ticks.map(|tick| Tick { at: libm::log10(tick.at), label: tick.label }).collect()
@@ -256,6 +269,7 @@ mod tests {
         assert_eq!(labels(-3.0, 7.1, Scale::Linear), ["−2.5", "0", "2.5", "5.0"]);
         assert_eq!(labels(0.0, 2e7, Scale::Linear), ["0", "0.5×10⁷", "1×10⁷", "1.5×10⁷", "2×10⁷"]);
         assert_eq!(labels(-3.0, 1.0, Scale::Log10), ["10⁻³", "10⁻²", "10⁻¹", "1", "10"]);
+        assert_eq!(labels(-1.2, -0.2, Scale::Log10), ["0.1", "0.2", "0.5"]);
         assert_eq!(labels(6.0, 20.0, Scale::Log2), ["2⁶", "2⁹", "2¹²", "2¹⁵", "2¹⁸"]);
     }
 

@@ -48,11 +48,19 @@ impl Points for SequencePoints {
             return;
         }
         let base = hash::combine(self.seed, replicate);
+        // Past 2³² points comes a fresh randomisation.
+        let keys_of = |round: u64| -> Vec<u64> {
+            (0..dimensions.div_ceil(4) as u64).map(|group| hash::combine(base, round << 8 | group)).collect()
+        };
+        let mut round = first >> 32;
+        let mut keys = keys_of(round);
         for (at, point) in out.chunks_mut(dimensions).enumerate() {
-            let index = first + at as u64;
-            for (group, numbers) in point.chunks_mut(4).enumerate() {
-                // Past 2³² points comes a fresh randomisation.
-                let key = hash::combine(base, (index >> 32) << 8 | group as u64);
+            let index = first.wrapping_add(at as u64);
+            if index >> 32 != round {
+                round = index >> 32;
+                keys = keys_of(round);
+            }
+            for (numbers, &key) in point.chunks_mut(4).zip(&keys) {
                 let words = self.sequence.words(key, index as u32);
                 for (number, word) in numbers.iter_mut().zip(words) {
                     *number = (f64::from(word) + 0.5) * (1.0 / 4_294_967_296.0);

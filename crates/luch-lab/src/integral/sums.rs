@@ -19,16 +19,21 @@ impl Sums {
         // Eight running sums: a fixed order, and wide enough for vector instructions.
         let (mut sums, mut squares, mut greatest) = ([0.0f64; 8], [0.0f64; 8], [0.0f64; 8]);
         let mut not_finite = 0;
-        for group in samples.chunks(8) {
-            for (lane, &sample) in group.iter().enumerate() {
-                let is_finite = sample.abs() < f64::INFINITY;
-                not_finite += u64::from(!is_finite);
-                let sample = if is_finite { sample } else { 0.0 };
-                sums[lane] += sample;
-                squares[lane] += sample * sample;
-                greatest[lane] = greatest[lane].max(sample.abs());
-            }
+        let mut take = |lane: usize, sample: f64| {
+            let is_finite = sample.abs() < f64::INFINITY;
+            not_finite += u64::from(!is_finite);
+            let sample = if is_finite { sample } else { 0.0 };
+            sums[lane] += sample;
+            squares[lane] += sample * sample;
+            let size = sample.abs();
+            greatest[lane] = if size > greatest[lane] { size } else { greatest[lane] };
+        };
+        let groups = samples.chunks_exact(8);
+        let rest = groups.remainder();
+        for group in groups {
+            (0..8).for_each(|lane| take(lane, group[lane]));
         }
+        rest.iter().enumerate().for_each(|(lane, &sample)| take(lane, sample));
         let mut all = Self { count: samples.len() as u64, outside, not_finite, ..Self::default() };
         for lane in 0..8 {
             // Sums of finite numbers may overflow all the same.
