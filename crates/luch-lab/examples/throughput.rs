@@ -1,5 +1,7 @@
 //! Evaluations a second of simple formulas: `cargo run --release -p luch-lab --example throughput`.
 
+#![allow(clippy::print_stdout)]
+
 use luch_lab::integral::{HashedPoints, Integral, SequencePoints};
 use luch_sampling::Sequence;
 
