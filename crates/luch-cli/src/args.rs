@@ -1,12 +1,17 @@
 //! What was typed.
 
 mod bench;
+mod lab;
 mod mesh;
 mod parameters;
 mod preview;
 mod render;
 
 pub(crate) use bench::{BenchArgs, BenchVerb, CameraArgs, Choice, RaysArgs};
+pub(crate) use lab::{
+    DensityArgs, DimensionsArgs, IntegrateArgs, LabArgs, LabOutputArgs, LabVerb, LectureArgs, MeasureArgs,
+    PointsArgs, PrngArgs, ProblemArgs, Rules, SlopesArgs,
+};
 pub(crate) use mesh::{
     CompareMeshesArgs, ConvertArgs, InfoArgs, MeshArgs, MeshOutputArgs, QueryArgs, RunArgs, SampleArgs,
     StepArgs, VerbsArgs,
@@ -41,6 +46,7 @@ pub(crate) enum Verb {
     Check(CheckArgs),
     Mesh(Box<MeshArgs>),
     Preview(Box<PreviewArgs>),
+    Lab(Box<LabArgs>),
     Bench(Box<BenchArgs>),
     Completions(CompletionsArgs),
 }

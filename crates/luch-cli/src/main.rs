@@ -17,6 +17,7 @@ mod display;
 mod failure;
 mod film_file;
 mod interrupt;
+mod lab;
 mod layers;
 mod merge;
 mod mesh;
@@ -46,6 +47,7 @@ fn main() -> ExitCode {
         Verb::Check(args) => check::run(&args),
         Verb::Mesh(args) => mesh::run(&args),
         Verb::Preview(args) => preview::run(&args),
+        Verb::Lab(args) => lab::run(&args),
         Verb::Bench(args) => bench::run(&args),
         Verb::Completions(args) => completions::run(&args),
     };

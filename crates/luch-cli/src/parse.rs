@@ -13,6 +13,15 @@ use std::ops::Range;
 use std::str::FromStr;
 use std::time::Duration;
 
+/// Nothing has this name; what was perhaps meant, or what there is.
+pub(crate) fn unknown<'a>(kind: &str, text: &str, known: impl Iterator<Item = &'a str> + Clone) -> String {
+    let distance = |name: &str| strsim::damerau_levenshtein(&text.to_ascii_lowercase(), name);
+    match known.clone().min_by_key(|name| distance(name)).filter(|name| distance(name) <= 3) {
+        Some(near) => format!("there is no {kind} `{text}`; did you mean `{near}`?"),
+        None => format!("there is no {kind} `{text}`; there are {}", known.collect::<Vec<_>>().join(", ")),
+    }
+}
+
 /// Longest side of a picture.
 const LONGEST_SIDE: u32 = 1 << 16;
 

@@ -21,6 +21,7 @@ mod density;
 mod domain;
 mod points;
 mod quantile;
+mod rule_points;
 mod suite;
 mod sums;
 mod tail;
@@ -31,6 +32,7 @@ pub use convergence::{Convergence, Row, SlopeFit, convergence, convergence_figur
 pub use density::{AxisDensity, Density, Drawn, Share};
 pub use domain::{Domain, MOST_DIMENSIONS, Side};
 pub use points::{HashedPoints, Points, SequencePoints};
+pub use rule_points::RulePoints;
 pub use suite::{SuiteMember, suite};
 pub use sums::Sums;
 pub use tail::{Tail, tail_of};

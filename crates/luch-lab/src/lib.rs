@@ -6,6 +6,10 @@
 //! | Where do points come from? | [`points`]: 22 rules in up to 64 dimensions |
 //! | How evenly do they lie? | [`measure`]: discrepancies, dispersion, spectra, nets |
 //! | How fast does the error fall? | [`slopes`] |
+//! | What is the integral of a formula, and how sure is that? | [`integral`]: densities, convergence, a stopping rule |
+//! | What is Monte Carlo first tried on? | [`problem`]: problems with known answers |
+//! | What does a density do? | [`density`]: pictures, weights, widths, several at once |
+//! | How does it look? | [`figure`]: SVG, PNG, terminal, CSV, JSON; [`report`]: a page of HTML |
 //!
 //! The area of a disc by scrambled Sobol' points, and how even they are beside independent ones:
 //!
@@ -24,9 +28,14 @@
 //!
 //! Everything is a function of its arguments and the same on every machine and any number of threads.
 
+pub mod density;
+pub mod figure;
 pub mod generator;
+pub mod integral;
 pub mod measure;
 pub mod points;
+pub mod problem;
+pub mod report;
 pub mod slopes;
 
 /// The README's example, run as a test.

@@ -61,13 +61,13 @@ impl MeshReport {
 
 /// Glass has an inside: on an open mesh light never comes out of it, or goes in where it did not come out.
 pub(crate) fn open_glass(scene: &Scene, meshes: &[MeshReport]) -> Vec<String> {
-    let is_glass = |id: &Id<Material>| {
-        matches!(scene.materials[id.index()].surface, Surface::Dielectric { .. })
-    };
+    let is_glass =
+        |id: &Id<Material>| matches!(scene.materials[id.index()].surface, Surface::Dielectric { .. });
     let mut found = Vec::new();
     for mesh in meshes.iter().filter(|mesh| !mesh.is_closed) {
         let instances = scene.instances.iter().filter(|instance| instance.shape.index() == mesh.shape);
-        let materials = instances.flat_map(|instance| instance.materials.iter().map(move |id| (instance, id)));
+        let materials =
+            instances.flat_map(|instance| instance.materials.iter().map(move |id| (instance, id)));
         for (instance, id) in materials.filter(|(_, id)| is_glass(id)).take(1) {
             found.push(format!(
                 "object \"{}\": material \"{}\" is glass, but the mesh is no closed body ({}); refraction wants an inside: \

@@ -72,11 +72,16 @@ fn a_film_of_something_else_is_not_continued() {
 fn glass_without_an_inside_is_told() {
     let place = Workplace::empty();
     let scene = |mesh: &str| {
-        format!("luch 1\nmaterial \"g\" {{ glass }}\nobject \"bowl\" material=\"g\" {{ mesh {{ {mesh} }} }}\n")
+        format!(
+            "luch 1\nmaterial \"g\" {{ glass }}\nobject \"bowl\" material=\"g\" {{ mesh {{ {mesh} }} }}\n"
+        )
     };
     place.write("open.kdl", &scene("teapot"));
     place.write("closed.kdl", &scene("torus"));
     let said = place.done("check open.kdl").out;
-    assert!(said.contains("\"bowl\"") && said.contains("no closed body") && said.contains("320 border"), "{said}");
+    assert!(
+        said.contains("\"bowl\"") && said.contains("no closed body") && said.contains("320 border"),
+        "{said}"
+    );
     assert!(!place.done("check closed.kdl").out.contains("no closed body"));
 }

@@ -1,0 +1,27 @@
+//! `luch lab`: Monte Carlo made visible.
+
+mod integrate;
+mod lecture;
+mod output;
+mod points;
+mod prng;
+mod problem;
+mod study;
+
+use crate::args::{LabArgs, LabVerb};
+use crate::failure::{Failure, Outcome};
+
+pub(crate) fn run(args: &LabArgs) -> Result<Outcome, Failure> {
+    match &args.verb {
+        LabVerb::Problems(_) => problem::list(),
+        LabVerb::Problem(words) => problem::run(words),
+        LabVerb::Integrate(args) => integrate::run(args),
+        LabVerb::Points(args) => points::show(args),
+        LabVerb::Measure(args) => points::measure(args),
+        LabVerb::Slopes(args) => study::slopes(args),
+        LabVerb::Density(args) => study::density(args),
+        LabVerb::Dimensions(args) => study::dimensions(args),
+        LabVerb::Prng(args) => prng::run(args),
+        LabVerb::Lecture(args) => lecture::run(args),
+    }
+}

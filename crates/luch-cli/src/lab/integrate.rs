@@ -1,0 +1,151 @@
+//! `luch lab integrate`: any integral.
+
+use super::output::{give, report};
+use crate::args::IntegrateArgs;
+use crate::failure::{Failure, Outcome};
+use luch_lab::figure::{Axis, Between, Figure, Ink};
+use luch_lab::integral::{
+    Convergence, Integral, Outcome as Found, RulePoints, Target, Verdict, convergence, convergence_figure,
+    until,
+};
+use luch_lab::points::Rule;
+use luch_lab::report::{Report, Table};
+
+pub(super) fn run(args: &IntegrateArgs) -> Result<Outcome, Failure> {
+    let mut integral = Integral::new(&args.formula, &args.over)?;
+    if let Some(density) = &args.density {
+        integral = integral.with_density(density)?;
+    }
+    if let Some(truth) = &args.truth {
+        integral = integral.with_truth(truth)?;
+    }
+    let title = format!("∫ {} over {}", args.formula, args.over);
+    match args.until {
+        Some(target) => go_on(args, &integral, title, target),
+        None => compare(args, &integral, title),
+    }
+}
+
+/// Every sampler at every number of points.
+fn compare(args: &IntegrateArgs, integral: &Integral, title: String) -> Result<Outcome, Failure> {
+    let dimensions = integral.dimensions();
+    let mut found = Vec::new();
+    let rules: Vec<Rule> = args.sampler.iter().flat_map(|rules| rules.0.iter().copied()).collect();
+    let is_all = rules.len() >= Rule::ALL.len();
+    for rule in rules {
+        let sizes: Vec<u64> = args.n.0.iter().map(|&size| rule.nearest_count(size, dimensions)).collect();
+        match sizes.iter().try_for_each(|&size| rule.accepts(size, dimensions)) {
+            // Of all samplers those that have such points.
+            Err(_) if is_all => continue,
+            Err(error) => return Err(error.into()),
+            Ok(()) => {}
+        }
+        // Without chance all replicates are one.
+        let points = RulePoints { rule, seed: args.seed };
+        found.push(convergence(rule.name(), integral, &points, &sizes, args.replicates));
+    }
+    let mut page = report(title.clone());
+    if let Some(place) = integral.blind_spot() {
+        page = page.text(format!("WARNING: the density is zero where the integrand is not, as at {place:?}: the result is too small."));
+    }
+    let page = page.table(table(integral, &found)).figure(convergence_figure(&title, &found));
+    give(&page, &args.output)
+}
+
+fn table(integral: &Integral, found: &[Convergence]) -> Table {
+    let head = ["sampler", "N", "mean", "rms error", "slope", "95 %", "equal error", "ns a sample"];
+    let mut table = Table::new(head);
+    for one in found {
+        let Some(last) = one.rows.last() else { continue };
+        let (slope, interval) = match one.slope {
+            _ if one.is_exact => ("exact".to_owned(), String::new()),
+            Some(fit) => (format!("{:.2}", fit.slope), format!("{:.2} to {:.2}", fit.low, fit.high)),
+            None => (String::new(), String::new()),
+        };
+        table = table.row([
+            one.name.clone(),
+            last.samples.to_string(),
+            format!("{:.9}", last.mean),
+            format!("{:.2e}", last.rmse),
+            slope,
+            interval,
+            one.equal_error_factor.map_or(String::new(), |factor| format!("{factor:.3}")),
+            format!("{:.1}", one.nanoseconds_per_sample),
+        ]);
+    }
+    match integral.truth {
+        Some(truth) => table.row(["truth".to_owned(), String::new(), format!("{truth:.9}")]),
+        None => table,
+    }
+}
+
+/// Until the error is reached.
+fn go_on(
+    args: &IntegrateArgs,
+    integral: &Integral,
+    title: String,
+    target: Target,
+) -> Result<Outcome, Failure> {
+    let points = RulePoints { rule: Rule::SobolHashed, seed: args.seed };
+    Rule::SobolHashed.accepts(1, integral.dimensions())?;
+    let found = until(integral, &points, target, args.limit);
+    let result = match (found.verdict, found.half_width) {
+        (Verdict::Reached, Some(half)) => {
+            format!("{:.12} ± {half:.2e} after {} samples", found.estimate, found.samples)
+        }
+        (Verdict::LimitReached, Some(half)) => {
+            format!(
+                "{:.12} ± {half:.2e} after {} samples: the limit; the target is not reached",
+                found.estimate, found.samples
+            )
+        }
+        (Verdict::HeavyTail, _) => {
+            format!("{:.6}, without an interval: the variance may be infinite", found.estimate)
+        }
+        (Verdict::BlindSpot, _) => "no result: the density is zero where the integrand is not".to_owned(),
+        (Verdict::NotFinite, _) => {
+            "no result: the integrand is infinite or undefined somewhere in the box".to_owned()
+        }
+        (_, None) => format!("{:.6}, without an interval", found.estimate),
+    };
+    let mut page = report(title).text(result);
+    if let Some(truth) = integral.truth {
+        page = page.text(format!("truth {truth:.12}, off by {:+.2e}", found.estimate - truth));
+    }
+    page = found.warnings.iter().fold(page, |page, warning| page.text(format!("WARNING: {warning}")));
+    let outcome = give(&looks(page, &found, integral), &args.output)?;
+    Ok(if found.verdict == Verdict::Reached { outcome } else { Outcome::Unmet })
+}
+
+fn looks(page: Report, found: &Found, integral: &Integral) -> Report {
+    if found.looks.is_empty() {
+        return page;
+    }
+    let mut table = Table::new(["samples", "estimate", "half width"]);
+    for look in &found.looks {
+        table = table.row([
+            look.samples.to_string(),
+            format!("{:.12}", look.estimate),
+            format!("{:.2e}", look.half_width),
+        ]);
+    }
+    let band = found
+        .looks
+        .iter()
+        .map(|look| Between {
+            x: look.samples as f64,
+            low: look.estimate - look.half_width,
+            high: look.estimate + look.half_width,
+        })
+        .collect();
+    let line = found.looks.iter().map(|look| [look.samples as f64, look.estimate]).collect();
+    let mut figure = Figure::new("The estimate and its interval")
+        .with_x(Axis::log2("samples"))
+        .with_y(Axis::linear("estimate"))
+        .band("interval", Ink::of(0), band)
+        .line("estimate", Ink::of(0), line);
+    if let Some(truth) = integral.truth {
+        figure = figure.level("truth", truth);
+    }
+    page.table(table).figure(figure)
+}
