@@ -16,7 +16,10 @@
 
 mod cluster;
 mod collapse;
+mod fans;
 mod quadric;
+mod rules;
+mod start;
 mod wedges;
 
 use crate::{TriangleMesh, clean, weld};
@@ -60,7 +63,7 @@ pub fn simplify(mesh: &TriangleMesh, settings: &Settings) -> Simplified {
     }
     let mesh = clean::remove_collapsed(&weld::weld_exact(mesh).mesh).mesh;
     let wedges = wedges::Wedges::of(&mesh);
-    let result = collapse::run(&mesh, wedges, settings);
+    let result = collapse::run(&mesh, &wedges, settings);
     Simplified { mesh: clean::remove_unused_positions(&result.mesh).mesh, error: result.error }
 }
 

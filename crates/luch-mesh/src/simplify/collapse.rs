@@ -1,78 +1,136 @@
-//! Edge collapses in passes: each sorts all edges by error and takes those that do not get in each other's way.
+//! Edge collapses in passes: each vertex chooses where it had best move, then the cheapest moves that do not get in each other's way are
+//! done.
+//!
+//! Choosing is most of the work and goes in parallel: a choice depends on the mesh before the pass alone. Moves are done in sweeps with
+//! rising limits of error, within a sweep by number of the vertex: nearly the order of errors, but through memory in one direction.
+
+use std::ops::Range;
 
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::fans::{Fans, GONE, Spoke};
 use super::quadric::Quadric;
+use super::start::{Freedom, Start, Surface};
 use super::wedges::Wedges;
 use super::{Settings, Simplified};
-use crate::edges::{Edges, corner_at, half_edge_ends};
-use crate::sets::DisjointSets;
-use crate::{Attribute, TriangleMesh};
+use crate::TriangleMesh;
 
-/// How much the planes that stand on borders and seams count against the surface.
-const BORDER_WEIGHT: f64 = 10.0;
-const SEAM_WEIGHT: f64 = 1.0;
-/// Each pass takes a sixteenth of what is wanted or all that is allowed; so many are never needed but on hostile meshes.
-const MOST_PASSES: usize = 256;
-/// A triangle may turn by this cosine at most.
-const LEAST_COSINE: f64 = 0.25;
+/// So many are never needed but on hostile meshes.
+const MOST_PASSES: u16 = 256;
+/// Sweeps of a pass, each with a limit that more moves keep.
+const SWEEPS: usize = 4;
+/// Of fewer vertices than this a quarter moves in a pass at most, of more a half.
+const CAREFUL: usize = 1 << 16;
+/// Bits of an error that a limit leaves open.
+const LIMIT_BITS: u32 = 16;
+/// So many vertices are swept together, neighbours mostly: what belongs to them stays in the cache.
+const BLOCK: usize = 1 << 12;
+/// A vertex tries its cheapest neighbours, so many at most.
+const MOST_TRIES: usize = 32;
 
-pub(super) fn run(mesh: &TriangleMesh, wedges: Wedges, settings: &Settings) -> Simplified {
-    let mut collapser = Collapser::new(mesh, &wedges, settings.keeps_borders);
+pub(super) fn run(mesh: &TriangleMesh, wedges: &Wedges, settings: &Settings) -> Simplified {
+    let mut collapser = Collapser::new(mesh, wedges, settings.keeps_borders);
     let most_error = if settings.error >= 0.0 { settings.error / collapser.scale } else { 0.0 };
     let most_error = most_error * most_error;
-    let mut worst = 0.0f64;
-    for _ in 0..MOST_PASSES {
-        if collapser.triangles.len() <= settings.triangles {
+    let mut worst = 0.0f32;
+    for pass in 1..=MOST_PASSES {
+        if collapser.count <= settings.triangles {
             break;
         }
-        let wanted = collapser.triangles.len() - settings.triangles;
-        match collapser.pass(wanted, most_error) {
-            Some(error) => worst = worst.max(error),
-            None => break,
+        let wanted = collapser.count - settings.triangles;
+        let done = collapser.pass(pass, wanted, most_error);
+        worst = worst.max(done.worst);
+        if done.removed == 0 && done.refused == 0 && collapser.asks_all {
+            break;
+        }
+        collapser.asks_all = done.removed < wanted / 16 || done.removed == 0;
+        if collapser.count * 3 < collapser.triangles.len() * 2 {
+            collapser.close_gaps();
         }
     }
-    Simplified { mesh: collapser.rebuilt(mesh, &wedges), error: worst.sqrt() * collapser.scale }
+    collapser.close_gaps();
+    Simplified { mesh: collapser.rebuilt(mesh, wedges), error: f64::from(worst).sqrt() * collapser.scale }
 }
 
-struct Collapser {
+/// What neighbours need to know of a vertex.
+#[derive(Clone, Copy)]
+pub(super) struct Vertex {
     /// Relative to the middle of the bounds, in units of `scale`.
-    places: Vec<DVec3>,
+    pub(super) place: DVec3,
+    /// The weighted squared distances to its own planes, and their weight.
+    own_error: f64,
+    weight: f64,
+    /// The last pass in which another moved here.
+    taken: u16,
+}
+
+/// Where a vertex had best move.
+#[derive(Clone, Copy)]
+struct Choice {
+    /// Infinite if it had best stay.
+    error: f32,
+    target: u32,
+    /// The last pass before which the choice was made, and the last in which a triangle about the vertex changed.
+    seen: u16,
+    changed: u16,
+    freedom: Freedom,
+    /// A move was refused: from now on neighbours are looked at more closely.
+    is_careful: bool,
+}
+
+/// A way to move, and what it costs.
+#[derive(Clone, Copy)]
+struct Move {
+    error: f32,
+    target: u32,
+}
+
+impl Move {
+    /// Cheaper, or to a vertex with a lower number.
+    #[inline]
+    fn is_before(&self, other: &Self) -> bool {
+        self.error < other.error || self.error == other.error && self.target < other.target
+    }
+}
+
+/// What a pass did.
+#[derive(Default)]
+struct Done {
+    /// Triangles.
+    removed: usize,
+    /// Moves.
+    refused: usize,
+    worst: f32,
+}
+
+pub(super) struct Collapser {
     scale: f64,
-    /// Positions of corners.
-    triangles: Vec<[u32; 3]>,
-    /// Wedges of corners.
-    wedges: Vec<[u32; 3]>,
+    pub(super) vertices: Vec<Vertex>,
     quadrics: Vec<Quadric>,
-    is_locked: Vec<bool>,
+    choices: Vec<Choice>,
+    /// For each vertex its number in the mesh.
+    numbers: Vec<u32>,
+    /// Positions of corners, or [`GONE`].
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// How many are left.
+    count: usize,
+    /// Wedges of corners; empty if there are no attributes.
+    pub(super) wedges: Vec<[u32; 3]>,
+    pub(super) fans: Fans,
+    /// All void choices are to be renewed, as in the first pass.
+    asks_all: bool,
 }
 
-/// Triangles about each vertex.
-struct Fans {
-    starts: Vec<u32>,
-    /// Corners `3 t + k`.
-    corners: Vec<u32>,
-}
-
-impl Fans {
-    fn of(triangles: &[[u32; 3]], count: usize) -> Self {
-        let mut starts = vec![0u32; count + 1];
-        let flat = triangles.as_flattened();
-        flat.iter().for_each(|&v| starts[v as usize + 1] += 1);
-        (0..count).for_each(|v| starts[v + 1] += starts[v]);
-        let mut next = starts.clone();
-        let mut corners = vec![0; flat.len()];
-        for (corner, &v) in flat.iter().enumerate() {
-            corners[next[v as usize] as usize] = corner as u32;
-            next[v as usize] += 1;
-        }
-        Self { starts, corners }
-    }
-
-    fn at(&self, vertex: u32) -> &[u32] {
-        &self.corners[self.starts[vertex as usize] as usize..self.starts[vertex as usize + 1] as usize]
-    }
+/// Lists that are used again for each vertex.
+#[derive(Default)]
+struct Lists {
+    spokes: Vec<Spoke>,
+    /// Those of the other vertex.
+    others: Vec<Spoke>,
+    /// Errors and neighbours.
+    options: Vec<Move>,
+    ends: Vec<u32>,
 }
 
 impl Collapser {
@@ -82,321 +140,284 @@ impl Collapser {
         let scale = (high - low).max_element();
         let scale = if scale > 0.0 && scale.is_finite() { scale } else { 1.0 };
         let middle = (low + high) * 0.5;
-        let mut collapser = Self {
-            places: mesh.positions.iter().map(|p| (p.as_dvec3() - middle) / scale).collect(),
-            scale,
-            triangles: mesh.triangles.clone(),
-            wedges: wedges.triangles.clone(),
-            quadrics: vec![Quadric::default(); mesh.positions.len()],
-            is_locked: vec![false; mesh.positions.len()],
+        let places: Vec<DVec3> = mesh.positions.iter().map(|p| (p.as_dvec3() - middle) / scale).collect();
+        let fans = Fans::of(&mesh.triangles, places.len());
+        let surface = Surface {
+            places: &places,
+            triangles: &mesh.triangles,
+            wedges: &wedges.triangles,
+            fans: &fans,
+            keeps_borders,
         };
-        collapser.add_surface();
-        collapser.add_curves(keeps_borders);
-        collapser
+        let starts = surface.starts();
+        let vertex = |(start, &place): (&Start, &DVec3)| Vertex {
+            place,
+            own_error: start.quadric.sum(place),
+            weight: start.quadric.weight,
+            taken: 0,
+        };
+        // All have changed before the first pass.
+        let choice = |start: &Start| Choice {
+            error: f32::INFINITY,
+            target: 0,
+            seen: 0,
+            changed: 0,
+            freedom: start.freedom,
+            is_careful: false,
+        };
+        Self {
+            scale,
+            vertices: starts.iter().zip(&places).map(vertex).collect(),
+            choices: starts.iter().map(choice).collect(),
+            quadrics: starts.into_iter().map(|start| start.quadric).collect(),
+            numbers: (0..places.len() as u32).collect(),
+            triangles: mesh.triangles.clone(),
+            count: mesh.triangles.len(),
+            wedges: wedges.triangles.clone(),
+            fans,
+            asks_all: true,
+        }
     }
 
-    fn add_surface(&mut self) {
-        for triangle in &self.triangles {
-            let [a, b, c] = triangle.map(|v| self.places[v as usize]);
-            let normal = (b - a).cross(c - a);
-            let length = normal.length();
-            if length > 0.0 {
-                let quadric = Quadric::of_plane(normal / length, a, length);
-                triangle.iter().for_each(|&v| self.quadrics[v as usize] += quadric);
+    /// Renews the choices that the last pass has made void, if they may be within a limit.
+    fn choose(&mut self, pass: u16, limit: f32, most_error: f64) {
+        let mut choices = std::mem::take(&mut self.choices);
+        choices.par_iter_mut().enumerate().with_min_len(1 << 12).for_each_init(
+            Lists::default,
+            |lists, (vertex, choice)| {
+                if choice.error == f32::INFINITY && choice.seen > choice.changed
+                    || choice.error > limit && choice.error < f32::INFINITY
+                {
+                    return;
+                }
+                let is_void = choice.seen <= choice.changed
+                    || choice.seen <= self.vertices[choice.target as usize].taken;
+                if is_void && matches!(choice.freedom, Freedom::Inner | Freedom::Border) {
+                    let best = if choice.is_careful || choice.freedom == Freedom::Border {
+                        self.best_allowed(vertex as u32, *choice, lists)
+                    } else {
+                        self.best(vertex as u32)
+                    };
+                    choice.error =
+                        if f64::from(best.error) <= most_error { best.error } else { f32::INFINITY };
+                    (choice.target, choice.seen) = (best.target, pass);
+                }
+            },
+        );
+        self.choices = choices;
+    }
+
+    /// The mean squared distance to the planes of two vertices after the one has moved onto the other.
+    #[inline(always)]
+    fn option(&self, quadric: &Quadric, target: u32) -> Move {
+        let other = &self.vertices[target as usize];
+        let weight = quadric.weight + other.weight;
+        let sum = quadric.sum(other.place) + other.own_error;
+        // Rounding may give a hair below zero.
+        let error = if weight > 0.0 { (sum / weight).max(0.0) } else { 0.0 };
+        Move { error: if error.is_finite() { error as f32 } else { f32::INFINITY }, target }
+    }
+
+    /// The cheapest neighbour of a vertex inside.
+    fn best(&self, vertex: u32) -> Move {
+        let quadric = &self.quadrics[vertex as usize];
+        let mut best = Move { error: f32::INFINITY, target: 0 };
+        self.fans.visit(&self.triangles, vertex, usize::MAX, |spoke| {
+            let option = self.option(quadric, spoke.ends[0]);
+            if option.is_before(&best) {
+                best = option;
+            }
+        });
+        best
+    }
+
+    /// The cheapest neighbour that nothing speaks against.
+    fn best_allowed(&self, vertex: u32, choice: Choice, lists: &mut Lists) -> Move {
+        let Lists { spokes, others, options, ends } = lists;
+        self.fans.gather(&self.triangles, vertex, spokes);
+        let quadric = &self.quadrics[vertex as usize];
+        options.clear();
+        if choice.freedom == Freedom::Border {
+            // The two ends that only one triangle has.
+            ends.clear();
+            ends.extend(spokes.iter().flat_map(|spoke| spoke.ends));
+            ends.sort_unstable();
+            let only = ends.chunk_by(|a, b| a == b).filter(|same| same.len() == 1);
+            options.extend(only.map(|only| self.option(quadric, only[0])));
+        } else {
+            options.extend(spokes.iter().map(|spoke| self.option(quadric, spoke.ends[0])));
+        }
+        for _ in 0..MOST_TRIES {
+            let first =
+                (0..options.len()).reduce(|a, b| if options[b].is_before(&options[a]) { b } else { a });
+            let Some(first) = first else { break };
+            let option = options.swap_remove(first);
+            if self.allows(spokes, others, vertex, option.target, choice.freedom) {
+                return option;
             }
         }
+        Move { error: f32::INFINITY, target: 0 }
     }
 
-    /// Planes on borders and seams; vertices where the surface is no manifold stay.
-    fn add_curves(&mut self, keeps_borders: bool) {
-        let triangles = &self.triangles;
-        let mut fans = DisjointSets::new(triangles.len() * 3);
-        for edge in Edges::new(triangles, self.places.len()).iter(triangles) {
-            let first = edge.half_edges[0];
-            let weight = match *edge.half_edges {
-                [_] => {
-                    edge.vertices.iter().for_each(|&v| self.is_locked[v as usize] |= keeps_borders);
-                    BORDER_WEIGHT
-                }
-                [one, other] if half_edge_ends(triangles, one)[0] != half_edge_ends(triangles, other)[0] => {
-                    let corners =
-                        edge.vertices.map(|v| [one, other].map(|half| corner_at(triangles, half, v)));
-                    corners.iter().for_each(|[a, b]| fans.join(*a, *b));
-                    let wedge = |corner: u32| self.wedges[corner as usize / 3][corner as usize % 3];
-                    if corners.iter().all(|[a, b]| wedge(*a) == wedge(*b)) {
-                        continue;
-                    }
-                    SEAM_WEIGHT
-                }
-                _ => {
-                    edge.vertices.iter().for_each(|&v| self.is_locked[v as usize] = true);
-                    continue;
-                }
-            };
-            // Upright on the triangle, along the edge.
-            let [a, b] = half_edge_ends(triangles, first).map(|v| self.places[v as usize]);
-            let [p, q, r] = triangles[first as usize / 3].map(|v| self.places[v as usize]);
-            let Some(normal) = (b - a).cross((q - p).cross(r - p)).try_normalize() else { continue };
-            let quadric = Quadric::of_plane(normal, a, (b - a).length_squared() * weight);
-            edge.vertices.iter().for_each(|&v| self.quadrics[v as usize] += quadric);
+    /// Limits of error for the sweeps of a pass, rising; the last is for all that is moved in it. To one part in 128.
+    fn limits(&self, wanted: usize) -> Option<[f32; SWEEPS]> {
+        // Bits of numbers that are not negative are in their order.
+        let mut counts = vec![0u32; 1 << (31 - LIMIT_BITS)];
+        let mut count = 0;
+        for error in self.choices.iter().map(|choice| choice.error).filter(|error| error.is_finite()) {
+            counts[(error.to_bits() >> LIMIT_BITS) as usize] += 1;
+            count += 1;
         }
-        let mut fan_of = vec![u32::MAX; self.places.len()];
-        for corner in 0..triangles.len() as u32 * 3 {
-            let fan = fans.root(corner);
-            let vertex = triangles[corner as usize / 3][corner as usize % 3] as usize;
-            self.is_locked[vertex] |= fan_of[vertex] != u32::MAX && fan_of[vertex] != fan;
-            fan_of[vertex] = fan;
+        if count == 0 {
+            return None;
         }
+        // Only the better part: what is dear now may be avoided later. A smaller part where that costs little time.
+        let part = if count < CAREFUL { 4 } else { 2 };
+        let goal = (wanted / 2).min(count / part);
+        let mut limits = [f32::MAX; SWEEPS];
+        let (mut sum, mut sweep) = (0, 0);
+        for (bin, &more) in counts.iter().enumerate() {
+            sum += more as usize;
+            while sweep < SWEEPS && sum > goal * (sweep + 1) / SWEEPS {
+                limits[sweep] = f32::from_bits(((bin as u32 + 1) << LIMIT_BITS) - 1);
+                sweep += 1;
+            }
+        }
+        Some(limits)
     }
 
-    /// Does the cheapest collapses, about half of what is wanted at most, and tells the largest error; `None` if there was
-    /// nothing to do.
-    fn pass(&mut self, wanted: usize, most_error: f64) -> Option<f64> {
-        let fans = Fans::of(&self.triangles, self.places.len());
-        let is_border = self.border_vertices(&fans);
-        let candidates = self.candidates(&fans, &is_border, most_error);
-        // Only the better part: what is dear now may be avoided later.
-        let goal = candidates.get(wanted / 2).map_or(f64::INFINITY, |c| f64::from(error_of(*c)) * 1.5);
-        let mut state = Pass {
-            target: (0..self.places.len() as u32).collect(),
-            no_source: vec![false; self.places.len()],
-            no_target: vec![false; self.places.len()],
-            wedge_target: Vec::new(),
-        };
-        let mut removed = 0;
-        let mut worst = None;
-        for candidate in candidates {
-            let error = f64::from(error_of(candidate));
-            // Where little of the better part is allowed, the rest has its turn.
-            if removed >= wanted || error > goal && removed >= wanted / 16 && worst.is_some() {
+    /// Moves vertices, about half of what is wanted at most.
+    fn pass(&mut self, pass: u16, wanted: usize, most_error: f64) -> Done {
+        let mut done = Done::default();
+        // By what was known before, which is not far from what is.
+        let before = if self.asks_all { None } else { self.limits(wanted) };
+        self.choose(pass, before.map_or(f32::INFINITY, |limits| limits[SWEEPS - 1]), most_error);
+        let Some(limits) = self.limits(wanted) else { return done };
+        let mut lists = Lists::default();
+        let count = self.choices.len();
+        for block in (0..count).step_by(BLOCK).map(|start| start..(start + BLOCK).min(count)) {
+            for limit in limits {
+                self.sweep(pass, block.clone(), wanted, limit, &mut done, &mut lists);
+            }
+        }
+        // Where little of the better part is allowed, the rest has its turn.
+        let mut limit = limits[SWEEPS - 1];
+        while done.removed < wanted / 16 && limit.is_finite() {
+            limit = if limit > f32::MIN_POSITIVE { limit * 2.0 } else { 1e-12 };
+            self.sweep(pass, 0..count, wanted, limit, &mut done, &mut lists);
+        }
+        done
+    }
+
+    /// Does moves whose error is within a limit.
+    fn sweep(
+        &mut self,
+        pass: u16,
+        block: Range<usize>,
+        wanted: usize,
+        limit: f32,
+        done: &mut Done,
+        lists: &mut Lists,
+    ) {
+        for vertex in block {
+            let choice = self.choices[vertex];
+            if choice.error > limit || choice.error == f32::INFINITY {
+                continue;
+            }
+            if done.removed >= wanted {
                 break;
             }
-            let half = candidate as u32 >> 1;
-            let [a, b] = half_edge_ends(&self.triangles, half);
-            let [from, to] = if candidate & 1 == 0 { [a, b] } else { [b, a] };
-            if state.no_source[from as usize] || state.no_target[to as usize] {
+            if choice.seen <= choice.changed || choice.seen <= self.vertices[choice.target as usize].taken {
                 continue;
             }
-            let Some(gone) = self.collapse(&fans, &mut state, from, to, is_border[from as usize]) else {
-                continue;
-            };
-            removed += gone;
-            worst = Some(worst.map_or(error, |w: f64| w.max(error)));
-        }
-        if worst.is_some() {
-            self.apply(&state);
-        }
-        worst
-    }
-
-    fn border_vertices(&self, fans: &Fans) -> Vec<bool> {
-        let triangles = &self.triangles;
-        (0..self.places.len() as u32)
-            .into_par_iter()
-            .with_min_len(1 << 12)
-            .map(|vertex| {
-                // In a closed fan every neighbour that a half-edge leads to is also one that another comes from.
-                let corners = fans.at(vertex);
-                let ends = |corner: u32, step: usize| {
-                    triangles[corner as usize / 3][(corner as usize % 3 + step) % 3]
-                };
-                corners.iter().any(|&c| !corners.iter().any(|&other| ends(other, 2) == ends(c, 1)))
-                    || corners.iter().any(|&c| !corners.iter().any(|&other| ends(other, 1) == ends(c, 2)))
-            })
-            .collect()
-    }
-
-    /// Collapses that are allowed by what their vertices are, cheapest first: error as a number in the upper half, half-edge and
-    /// direction in the lower.
-    fn candidates(&self, fans: &Fans, is_border: &[bool], most_error: f64) -> Vec<u64> {
-        let candidate = |half: u32| -> Option<u64> {
-            let [a, b] = half_edge_ends(&self.triangles, half);
-            let on_border = is_border[a as usize] && is_border[b as usize];
-            let is_border_edge = on_border && !self.has_half_edge(fans, b, a);
-            if a > b && !is_border_edge {
-                return None;
-            }
-            let allowed =
-                |from: u32| !self.is_locked[from as usize] && (!is_border[from as usize] || is_border_edge);
-            let sum = self.quadrics[a as usize] + self.quadrics[b as usize];
-            let error = |from: u32, to: u32| {
-                if allowed(from) { sum.error(self.places[to as usize]) } else { f64::INFINITY }
-            };
-            let (forward, backward) = (error(a, b), error(b, a));
-            let best = forward.min(backward);
-            if !(best <= most_error && best.is_finite()) {
-                return None;
-            }
-            let direction = u64::from(backward < forward);
-            // Bits of numbers that are not negative are in their order.
-            Some(u64::from((best as f32).to_bits()) << 32 | u64::from(half) << 1 | direction)
-        };
-        let halves = (self.triangles.len() * 3) as u32;
-        let mut candidates: Vec<u64> =
-            (0..halves).into_par_iter().with_min_len(1 << 12).filter_map(candidate).collect();
-        candidates.par_sort_unstable();
-        candidates
-    }
-
-    fn has_half_edge(&self, fans: &Fans, from: u32, to: u32) -> bool {
-        fans.at(from).iter().any(|&c| self.triangles[c as usize / 3][(c as usize % 3 + 1) % 3] == to)
-    }
-
-    /// Moves a vertex onto another if nothing speaks against it, and tells how many triangles go.
-    fn collapse(
-        &mut self,
-        fans: &Fans,
-        state: &mut Pass,
-        from: u32,
-        to: u32,
-        is_border: bool,
-    ) -> Option<usize> {
-        let around = fans.at(from);
-        // No triangle about the source has changed in this pass, though other vertices of it may have moved onto others.
-        let mut links: Vec<[u32; 2]> = Vec::with_capacity(2);
-        let mut tips: Vec<u32> = Vec::with_capacity(2);
-        for &corner in around {
-            let (triangle, k) = (corner as usize / 3, corner as usize % 3);
-            let vertices = self.triangles[triangle];
-            if let Some(other) = (1..3).map(|step| (k + step) % 3).find(|&other| vertices[other] == to) {
-                let wedges = self.wedges[triangle];
-                links.push([wedges[k], wedges[other]]);
-                tips.push(vertices[3 - k - other]);
-            }
-        }
-        let expected = if is_border { 1 } else { 2 };
-        if links.len() != expected {
-            return None;
-        }
-        // Every wedge of the source must know its place at the target.
-        let wedge_of = |wedge: u32| {
-            let mut found = links.iter().filter(|link| link[0] == wedge).map(|link| link[1]);
-            let first = found.next()?;
-            found.all(|other| other == first).then_some(first)
-        };
-        for &corner in around {
-            wedge_of(self.wedges[corner as usize / 3][corner as usize % 3])?;
-        }
-        if !self.keeps_topology(fans, state, from, to, &tips) || self.turns_over(around, from, to) {
-            return None;
-        }
-        for &corner in around {
-            let wedge = self.wedges[corner as usize / 3][corner as usize % 3];
-            if let Some(place) = wedge_of(wedge) {
-                state.wedge_target.push([wedge, place]);
-            }
-            self.triangles[corner as usize / 3].iter().for_each(|&v| state.no_source[v as usize] = true);
-        }
-        state.target[from as usize] = to;
-        state.no_target[from as usize] = true;
-        state.no_target[to as usize] = true;
-        let moved = self.quadrics[from as usize];
-        self.quadrics[to as usize] += moved;
-        Some(links.len())
-    }
-
-    /// The link condition: the only vertices next to both are the tips of the triangles on the edge.
-    fn keeps_topology(&self, fans: &Fans, state: &Pass, from: u32, to: u32, tips: &[u32]) -> bool {
-        let next_to_source =
-            |vertex: u32| fans.at(from).iter().any(|&c| self.triangles[c as usize / 3].contains(&vertex));
-        for &corner in fans.at(to) {
-            let triangle = self.triangles[corner as usize / 3];
-            if triangle.contains(&from) {
-                continue;
-            }
-            let now = triangle.map(|v| state.target[v as usize]);
-            for vertex in now {
-                if vertex != to && vertex != from && !tips.contains(&vertex) && next_to_source(vertex) {
-                    return false;
+            match self.collapse(pass, vertex as u32, choice, lists) {
+                0 => {
+                    // The next pass has another idea.
+                    done.refused += 1;
+                    self.choices[vertex].is_careful = true;
+                    self.choices[vertex].changed = pass;
+                }
+                gone => {
+                    done.removed += gone;
+                    done.worst = done.worst.max(choice.error);
                 }
             }
         }
-        // The last triangle of a piece stays; and of a tetrahedron two faces on each other would be left.
-        let others =
-            || fans.at(to).iter().map(|&c| self.triangles[c as usize / 3]).filter(|t| !t.contains(&from));
-        let closes_up = fans.at(from).len() == 3 && tips.len() == 2;
-        let leaves_some = fans.at(from).len() > tips.len() || others().next().is_some();
-        leaves_some && !(closes_up && others().any(|t| tips.iter().all(|tip| t.contains(tip))))
     }
 
-    fn turns_over(&self, around: &[u32], from: u32, to: u32) -> bool {
-        let goal = self.places[to as usize];
-        let own = self.places[from as usize];
-        around.iter().any(|&corner| {
-            let (vertices, k) = (self.triangles[corner as usize / 3], corner as usize % 3);
-            let (b, c) = (vertices[(k + 1) % 3], vertices[(k + 2) % 3]);
-            if b == to || c == to {
-                return false;
+    /// Moves a vertex onto its target if the topology stays, and tells how many triangles go.
+    fn collapse(&mut self, pass: u16, from: u32, choice: Choice, lists: &mut Lists) -> usize {
+        let to = choice.target;
+        let Lists { spokes, others, .. } = lists;
+        self.fans.gather(&self.triangles, from, spokes);
+        if !self.allows(spokes, others, from, to, choice.freedom) {
+            return 0;
+        }
+        let links = self.links(spokes, to);
+        let mut removed = 0;
+        for &spoke in spokes.iter() {
+            let [triangle, corner] = spoke.corner_after(0);
+            if spoke.ends.contains(&to) {
+                removed += 1;
+            } else {
+                self.triangles[triangle][corner] = to;
+                if let Some(link) = links.iter().flatten().find(|l| l[0] == self.wedges[triangle][corner]) {
+                    self.wedges[triangle][corner] = link[1];
+                }
             }
-            let (b, c) = (self.places[b as usize], self.places[c as usize]);
-            let before = (b - own).cross(c - own);
-            let after = (b - goal).cross(c - goal);
-            let product = (before.length_squared() * after.length_squared()).sqrt();
-            // A triangle without area may become any, but not the other way round.
-            before.dot(after) < LEAST_COSINE * product || after.length_squared() == 0.0
-        })
+            spoke.ends.iter().for_each(|&end| self.choices[end as usize].changed = pass);
+        }
+        for spoke in spokes.iter().filter(|spoke| spoke.ends.contains(&to)) {
+            self.triangles[spoke.triangle()] = GONE;
+        }
+        self.count -= removed;
+        self.choices[from as usize] = Choice { error: f32::INFINITY, freedom: Freedom::Gone, ..choice };
+        self.fans.hand_over(from, to);
+        let moved = self.quadrics[from as usize];
+        let quadric = &mut self.quadrics[to as usize];
+        *quadric += moved;
+        let target = &mut self.vertices[to as usize];
+        target.own_error = quadric.sum(target.place);
+        target.weight = quadric.weight;
+        target.taken = pass;
+        removed
     }
 
-    /// Renames corners and drops triangles that collapsed.
-    fn apply(&mut self, state: &Pass) {
-        let mut pairs = state.wedge_target.clone();
-        pairs.sort_unstable();
-        pairs.dedup();
-        let most = self.wedges.as_flattened().iter().max().map_or(0, |most| *most as usize + 1);
-        let mut wedge_target: Vec<u32> = (0..most as u32).collect();
-        pairs.iter().for_each(|&[from, to]| wedge_target[from as usize] = to);
+    /// Leaves out vertices and triangles that are gone.
+    fn close_gaps(&mut self) {
+        let mut number = vec![u32::MAX; self.choices.len()];
         let mut kept = 0;
-        for t in 0..self.triangles.len() {
-            let [a, b, c] = self.triangles[t].map(|v| state.target[v as usize]);
-            if a != b && b != c && c != a {
-                self.triangles[kept] = [a, b, c];
-                self.wedges[kept] = self.wedges[t].map(|w| wedge_target[w as usize]);
+        for (vertex, number) in number.iter_mut().enumerate() {
+            if self.choices[vertex].freedom != Freedom::Gone {
+                *number = kept as u32;
+                self.vertices[kept] = self.vertices[vertex];
+                self.quadrics[kept] = self.quadrics[vertex];
+                self.choices[kept] = self.choices[vertex];
+                self.numbers[kept] = self.numbers[vertex];
                 kept += 1;
             }
         }
-        self.triangles.truncate(kept);
-        self.wedges.truncate(kept);
+        self.vertices.truncate(kept);
+        self.quadrics.truncate(kept);
+        self.choices.truncate(kept);
+        self.numbers.truncate(kept);
+        for choice in &mut self.choices {
+            // What moved away has changed all about it: such a choice is void.
+            choice.target = number[choice.target as usize].min(kept as u32 - 1);
+        }
+        let is_left = |triangle: &[u32; 3]| *triangle != GONE;
+        if !self.wedges.is_empty() {
+            let mut triangles = self.triangles.iter();
+            self.wedges.retain(|_| triangles.next().is_some_and(is_left));
+        }
+        self.triangles.retain(is_left);
+        self.triangles.as_flattened_mut().iter_mut().for_each(|v| *v = number[*v as usize]);
+        self.fans = Fans::of(&self.triangles, kept);
     }
 
     /// The mesh of what is left; attributes from a corner of each wedge.
     fn rebuilt(&self, mesh: &TriangleMesh, wedges: &Wedges) -> TriangleMesh {
-        fn own<T: Copy>(attribute: &Attribute<T>, now: &[[u32; 3]], wedges: &Wedges) -> Attribute<T> {
-            if attribute.triangles.is_empty() {
-                return attribute.clone();
-            }
-            let value = |wedge: u32| {
-                let corner = wedges.corners[wedge as usize] as usize;
-                attribute.triangles[corner / 3][corner % 3]
-            };
-            Attribute::indexed(attribute.values.clone(), now.iter().map(|t| t.map(value)).collect())
-        }
-        let slot = |wedge: u32| mesh.slots[wedges.corners[wedge as usize] as usize / 3];
-        TriangleMesh {
-            positions: mesh.positions.clone(),
-            triangles: self.triangles.clone(),
-            normals: own(&mesh.normals, &self.wedges, wedges),
-            uv_sets: mesh.uv_sets.iter().map(|uvs| own(uvs, &self.wedges, wedges)).collect(),
-            tangents: own(&mesh.tangents, &self.wedges, wedges),
-            colors: own(&mesh.colors, &self.wedges, wedges),
-            slots: if mesh.slots.is_empty() {
-                Vec::new()
-            } else {
-                self.wedges.iter().map(|t| slot(t[0])).collect()
-            },
-        }
+        let triangles = self.triangles.iter().map(|t| t.map(|v| self.numbers[v as usize])).collect();
+        wedges.mesh(mesh, triangles, &self.wedges)
     }
-}
-
-fn error_of(candidate: u64) -> f32 {
-    f32::from_bits((candidate >> 32) as u32)
-}
-
-/// What has happened in a pass.
-struct Pass {
-    target: Vec<u32>,
-    /// Vertices whose triangles have changed.
-    no_source: Vec<bool>,
-    /// Vertices that have moved or been moved onto.
-    no_target: Vec<bool>,
-    wedge_target: Vec<[u32; 2]>,
 }

@@ -1,6 +1,6 @@
 //! Squared distances to planes, added up.
 
-use std::ops::{Add, AddAssign};
+use std::ops::AddAssign;
 
 use glam::DVec3;
 
@@ -29,34 +29,22 @@ impl Quadric {
         }
     }
 
-    /// The mean of the squared distances of a place.
-    pub(super) fn error(&self, x: DVec3) -> f64 {
-        let squares = (self.diagonal * x).dot(x);
-        let products =
-            2.0 * (self.others.x * x.y * x.z + self.others.y * x.z * x.x + self.others.z * x.x * x.y);
-        let sum = squares + products + 2.0 * self.linear.dot(x) + self.constant;
-        // Rounding may give a hair below zero.
-        if self.weight > 0.0 { (sum / self.weight).max(0.0) } else { 0.0 }
-    }
-}
-
-impl Add for Quadric {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self {
-            diagonal: self.diagonal + other.diagonal,
-            others: self.others + other.others,
-            linear: self.linear + other.linear,
-            constant: self.constant + other.constant,
-            weight: self.weight + other.weight,
-        }
+    /// The weighted sum of the squared distances of a place.
+    #[inline]
+    pub(super) fn sum(&self, x: DVec3) -> f64 {
+        let Self { diagonal: d, others: o, linear: l, constant, .. } = self;
+        let across = DVec3::new(o.z * x.y + o.y * x.z, o.z * x.x + o.x * x.z, o.y * x.x + o.x * x.y);
+        (*d * x + across + *l * 2.0).dot(x) + constant
     }
 }
 
 impl AddAssign for Quadric {
     fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
+        self.diagonal += other.diagonal;
+        self.others += other.others;
+        self.linear += other.linear;
+        self.constant += other.constant;
+        self.weight += other.weight;
     }
 }
 
@@ -65,7 +53,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn it_is_the_mean_squared_distance() {
+    fn it_is_the_sum_of_squared_distances() {
         let planes = [(DVec3::X, DVec3::new(1.0, 0.0, 0.0), 2.0), (DVec3::new(0.6, 0.0, 0.8), DVec3::Y, 1.0)];
         let mut sum = Quadric::default();
         planes.iter().for_each(|&(normal, place, weight)| sum += Quadric::of_plane(normal, place, weight));
@@ -74,6 +62,6 @@ mod tests {
             let distance = normal.dot(at - place);
             distance * distance * weight
         });
-        assert!((sum.error(at) - (distances[0] + distances[1]) / 3.0).abs() < 1e-12);
+        assert!((sum.sum(at) - (distances[0] + distances[1])).abs() < 1e-12);
     }
 }

@@ -1,10 +1,10 @@
 //! Wedges: the corners of a position that share all attributes and the material. A position on a seam has several.
 
-use crate::TriangleMesh;
+use crate::{Attribute, TriangleMesh};
 
 /// For each corner its wedge; for each wedge a corner to take attributes from.
 pub(super) struct Wedges {
-    /// For each triangle the wedges of its corners.
+    /// For each triangle the wedges of its corners. Empty if positions are wedges.
     pub(super) triangles: Vec<[u32; 3]>,
     /// For each wedge one corner of the mesh, `3 t + k`. Empty if positions are wedges.
     pub(super) corners: Vec<u32>,
@@ -17,7 +17,7 @@ impl Wedges {
         lists.extend(mesh.uv_sets.iter().map(|uvs| uvs.triangles.as_slice()));
         lists.retain(|list| !list.is_empty());
         if lists.is_empty() && mesh.slots.is_empty() {
-            return Self { triangles: mesh.triangles.clone(), corners: Vec::new() };
+            return Self { triangles: Vec::new(), corners: Vec::new() };
         }
         // One list after another: wedges so far are split by the next.
         let mut wedges: Vec<u32> = mesh.triangles.as_flattened().to_vec();
@@ -34,6 +34,38 @@ impl Wedges {
         }
         let (triangles, _) = wedges.as_chunks::<3>();
         Self { triangles: triangles.to_vec(), corners }
+    }
+
+    /// A mesh of other triangles on the same positions; attributes from a corner of each wedge.
+    pub(super) fn mesh(
+        &self,
+        mesh: &TriangleMesh,
+        triangles: Vec<[u32; 3]>,
+        wedges: &[[u32; 3]],
+    ) -> TriangleMesh {
+        let slot = |wedge: u32| mesh.slots[self.corners[wedge as usize] as usize / 3];
+        let slots =
+            if mesh.slots.is_empty() { Vec::new() } else { wedges.iter().map(|t| slot(t[0])).collect() };
+        TriangleMesh {
+            positions: mesh.positions.clone(),
+            triangles,
+            normals: self.own(&mesh.normals, wedges),
+            uv_sets: mesh.uv_sets.iter().map(|uvs| self.own(uvs, wedges)).collect(),
+            tangents: self.own(&mesh.tangents, wedges),
+            colors: self.own(&mesh.colors, wedges),
+            slots,
+        }
+    }
+
+    fn own<T: Copy>(&self, attribute: &Attribute<T>, wedges: &[[u32; 3]]) -> Attribute<T> {
+        if attribute.triangles.is_empty() {
+            return attribute.clone();
+        }
+        let value = |wedge: u32| {
+            let corner = self.corners[wedge as usize] as usize;
+            attribute.triangles[corner / 3][corner % 3]
+        };
+        Attribute::indexed(attribute.values.clone(), wedges.iter().map(|t| t.map(value)).collect())
     }
 }
 
