@@ -65,7 +65,7 @@ fn what_is_wrong_is_said() {
             "`file`: patches: line 3, column 5: found “zero”, expected a coordinate",
         ),
         ("patches a.bpt --tolerance 0", b"0", "a number above 0"),
-        ("patches a.bpt --tolerance 1 --divisions 1", b"0", "cannot be given beside a tolerance"),
+        ("patches a.bpt --tolerance 1 --divisions 1", b"0", "beside the wish for fineness"),
         ("bezier-patch 1,2,3", b"", "at least two rows of 4 points"),
         ("nurbs-sphere --tolerance 1e-30", b"", "triangles, the most is"),
         ("nurbs-sphere --radius 1e30", b"", "farther away"),

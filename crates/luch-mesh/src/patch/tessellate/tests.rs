@@ -86,7 +86,7 @@ fn round_bodies_are_closed_with_the_right_genus() {
             Fineness::Divisions(1),
             Fineness::Divisions(5),
         ] {
-            let mesh = model.tessellate(fineness).unwrap();
+            let mesh = model.tessellate(fineness.clone()).unwrap();
             assert_eq!(measure::closedness(&mesh).to_string(), closedness, "{fineness:?}");
             assert_eq!(mesh.validate(), []);
             assert!(measure::volume(&mesh) > 0.0);
@@ -262,7 +262,7 @@ fn senseless_wishes_are_refused() {
         assert!(model.tessellate(Fineness::Tolerance(tolerance)).is_err());
     }
     for fineness in [Fineness::Tolerance(1e-300), Fineness::Tolerance(1e-12), Fineness::Divisions(u32::MAX)] {
-        assert!(matches!(model.tessellate(fineness), Err(PatchError::TooFine { .. })), "{fineness:?}");
+        assert!(matches!(model.tessellate(fineness.clone()), Err(PatchError::TooFine { .. })), "{fineness:?}");
     }
     let huge = PatchModel::from(shapes::sphere(1e17).unwrap());
     assert!(huge.tessellate(Fineness::Tolerance(0.001)).is_err());
