@@ -102,7 +102,12 @@ pub(super) fn add(a: Interval, b: Interval) -> Interval {
     // ∞ − ∞ is undefined.
     let partial = (a.high == f64::INFINITY && b.low == f64::NEG_INFINITY)
         || (a.low == f64::NEG_INFINITY && b.high == f64::INFINITY);
-    let (low, high) = (a.low + b.low, a.high + b.high);
+    let (mut low, mut high) = (a.low + b.low, a.high + b.high);
+    if partial {
+        // Opposite infinities may meet at one end.
+        low = if low.is_nan() { f64::NEG_INFINITY } else { low };
+        high = if high.is_nan() { f64::INFINITY } else { high };
+    }
     Interval {
         // A sum that is zero is exact, and so is one with zero.
         low: if low == 0.0 || a.low == 0.0 || b.low == 0.0 { low } else { down(low) },
