@@ -4,7 +4,7 @@ use super::{Dependence, Instruction, Program, Tape, TapeError};
 use crate::expression::Expression;
 use crate::graph::{Graph, Id, Node};
 use crate::operation::Operation;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 impl Tape {
     /// Compiles an expression of the listed variables.
@@ -124,6 +124,7 @@ impl Tape {
                 instructions,
                 output_registers,
                 registers: registers as usize,
+                along: OnceLock::new(),
             }),
         }
     }

@@ -5,6 +5,7 @@ mod errors;
 mod expressions;
 mod language;
 mod noise;
+mod polynomials;
 mod ranges;
 mod roots;
 mod samples;
