@@ -9,8 +9,8 @@ mod functions;
 mod slopes;
 
 pub(crate) use binary::binary;
-pub(crate) use functions::{noise, unary, whole_power};
-pub(crate) use slopes::{binary_slopes, chain, noise_slopes, unary_slope, whole_power_slope};
+pub(crate) use functions::{SineAndCosine, down, noise, sine_and_cosine, unary, up, whole_power};
+pub(crate) use slopes::{binary_slopes, chain, noise_with_slopes, unary_slope, whole_power_slope};
 
 /// All numbers from `low` to `high`, both included. Ends may be infinite, and then infinite values are included too.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -122,6 +122,22 @@ fn product(a: f64, b: f64) -> f64 {
 }
 
 pub(super) fn multiply(a: Interval, b: Interval) -> Interval {
+    // Nearly always all is finite, and no end is zero. A product that is not a number fails the test.
+    let [ll, lh, hl, hh] = [a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high];
+    let finite = (ll.abs() + lh.abs()) + (hl.abs() + hh.abs()) <= f64::MAX;
+    if finite && ll != 0.0 && lh != 0.0 && hl != 0.0 && hh != 0.0 {
+        let least = |a: f64, b: f64| if a < b { a } else { b };
+        let greatest = |a: f64, b: f64| if a > b { a } else { b };
+        return Interval {
+            low: down(least(least(ll, lh), least(hl, hh))),
+            high: up(greatest(greatest(ll, lh), greatest(hl, hh))),
+            partial: false,
+        };
+    }
+    multiply_any(a, b)
+}
+
+fn multiply_any(a: Interval, b: Interval) -> Interval {
     let infinite = |range: &Interval| range.low == f64::NEG_INFINITY || range.high == f64::INFINITY;
     let partial = (a.contains_zero() && infinite(&b)) || (b.contains_zero() && infinite(&a));
     let products =

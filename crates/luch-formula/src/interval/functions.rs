@@ -5,7 +5,7 @@
 
 use super::Interval;
 use super::binary::magnitudes;
-use crate::noise::{STEEPEST, noise as noise_at};
+use crate::noise::{MOST_CURVED, Noise, STEEPEST, noise as noise_at};
 use crate::operation::{Unary, unary as unary_at};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -21,14 +21,14 @@ const NOISE_SLACK: f64 = 1e-13;
 /// A number below, by one or two units of the last place, without a branch: ε|v| is one unit at least, and what is added to it
 /// serves numbers near zero. From +∞ the greatest number is taken first.
 #[inline]
-pub(super) fn down(value: f64) -> f64 {
+pub(crate) fn down(value: f64) -> f64 {
     let value = if value > f64::MAX { f64::MAX } else { value };
     value - (value.abs() * f64::EPSILON + f64::MIN_POSITIVE)
 }
 
 /// A number above; see [`down`].
 #[inline]
-pub(super) fn up(value: f64) -> f64 {
+pub(crate) fn up(value: f64) -> f64 {
     let value = if value < -f64::MAX { -f64::MAX } else { value };
     value + (value.abs() * f64::EPSILON + f64::MIN_POSITIVE)
 }
@@ -126,12 +126,47 @@ fn inside(x: Interval, low: f64, high: f64) -> Option<Interval> {
 }
 
 /// Whether (x / unit) − phase surely meets no whole number: false says so.
+#[inline]
 fn meets_whole(x: Interval, unit: f64, phase: f64) -> bool {
     let (first, last) = (x.low / unit - phase, x.high / unit - phase);
     // The quotient and the constant err by some units of the last place.
     let slack = SLACK * (1.0 + first.abs() + last.abs());
-    (last + slack).floor() >= (first - slack).ceil()
+    floor(last + slack) >= first - slack
 }
+
+/// Added to numbers that are not too large it leaves no room for fractions.
+const WHOLE: f64 = 1.5 * (1_u64 << 52) as f64;
+
+/// Rounding down without a call: to the nearest whole number, and one less if that is above.
+#[inline]
+fn floor(x: f64) -> f64 {
+    if x.abs() < 1e15 {
+        let nearest = (x + WHOLE) - WHOLE;
+        if nearest > x { nearest - 1.0 } else { nearest }
+    } else {
+        x.floor()
+    }
+}
+
+/// The ranges of sine and cosine; what both need is computed once.
+pub(crate) fn sine_and_cosine(x: Interval) -> SineAndCosine {
+    if !(x.low.is_finite() && x.high.is_finite() && x.high - x.low >= NARROW) {
+        return SineAndCosine { sine: unary(Unary::Sin, x), cosine: unary(Unary::Cos, x) };
+    }
+    let ((sin_low, cos_low), (sin_high, cos_high)) = (libm::sincos(x.low), libm::sincos(x.high));
+    let sine = between_ends(x, 0.25, quick(sin_low, sin_high));
+    let cosine = between_ends(x, 0.0, quick(cos_low, cos_high));
+    SineAndCosine { sine: sine.partial_if(x.partial), cosine: cosine.partial_if(x.partial) }
+}
+
+/// Two ranges.
+pub(crate) struct SineAndCosine {
+    pub(crate) sine: Interval,
+    pub(crate) cosine: Interval,
+}
+
+/// What is narrower is as good as one number.
+const NARROW: f64 = 1e-12;
 
 /// A wave between −1 and 1 whose crest stands at `crest` turns.
 fn wave(x: Interval, crest: f64, at: impl Fn(f64) -> f64) -> Interval {
@@ -139,7 +174,20 @@ fn wave(x: Interval, crest: f64, at: impl Fn(f64) -> f64) -> Interval {
     if !(x.low.is_finite() && x.high.is_finite()) {
         return whole;
     }
-    let ends = outward(quick(at(x.low), at(x.high)), SLACK).within(-1.0, 1.0);
+    if x.high - x.low < NARROW {
+        let value = at(x.low);
+        // No wave is steeper than 1. Near its zeros the ends tell more.
+        if value.abs() > 0.01 {
+            let reach = up(x.high - x.low) + SLACK;
+            return Interval { low: value - reach, high: value + reach, partial: false }.within(-1.0, 1.0);
+        }
+    }
+    between_ends(x, crest, quick(at(x.low), at(x.high)))
+}
+
+/// A wave whose values at the ends are known.
+fn between_ends(x: Interval, crest: f64, ends: Interval) -> Interval {
+    let ends = outward(ends, SLACK).within(-1.0, 1.0);
     Interval {
         low: if meets_whole(x, TAU, crest + 0.5) { -1.0 } else { ends.low },
         high: if meets_whole(x, TAU, crest) { 1.0 } else { ends.high },
@@ -219,17 +267,28 @@ pub(super) fn cell(place: [Interval; 3]) -> Option<Cell> {
     Some(Cell { middle, reach })
 }
 
-/// The range of noise: its value in the middle, and as far from it as the steepest slope leads.
+/// The range of noise.
 pub(crate) fn noise(place: [Interval; 3]) -> Interval {
     let partial = place.iter().any(|range| range.partial);
     if place.iter().any(Interval::is_empty) {
         return Interval::EMPTY;
     }
-    let most = Interval { low: -1.0, high: 1.0, partial };
-    let Some(cell) = cell(place) else { return most.partial_if(true) };
-    let [x, y, z] = cell.middle;
-    let middle = noise_at(x, y, z).value;
-    let reach = STEEPEST * cell.reach + NOISE_SLACK;
-    Interval { low: middle - reach, high: middle + reach, partial }
+    match cell(place) {
+        None => Interval { low: -1.0, high: 1.0, partial: true },
+        Some(cell) => {
+            let [x, y, z] = cell.middle;
+            noise_around(&noise_at(x, y, z), &cell).partial_if(partial)
+        }
+    }
+}
+
+/// The range of noise in a cell: its value in the middle, and as far from it as the steepest slope leads; or as the slopes there
+/// lead, and half the greatest curvature.
+pub(super) fn noise_around(middle: &Noise, cell: &Cell) -> Interval {
+    let steepest = middle.gradient.iter().fold(0.0_f64, |most, slope| most.max(slope.abs()));
+    let slope = steepest + 0.5 * MOST_CURVED * cell.reach;
+    let slope = if slope < STEEPEST { slope } else { STEEPEST };
+    let reach = up(up(slope) * cell.reach) + NOISE_SLACK * (1.0 + cell.reach);
+    Interval { low: middle.value - reach, high: middle.value + reach, partial: false }
         .within(-1.0 - NOISE_SLACK, 1.0 + NOISE_SLACK)
 }

@@ -4,7 +4,7 @@
 //! whole line.
 
 use super::binary::{add, divide, multiply, square, whole_quotient};
-use super::functions::{Cell, GAMMA_SLACK, cell, outward};
+use super::functions::{GAMMA_SLACK, cell, noise, noise_around, outward};
 use super::{Interval, binary, unary, whole_power};
 use crate::noise::{MOST_CURVED, STEEPEST, noise as noise_at};
 use crate::operation::{Binary, Unary};
@@ -111,14 +111,29 @@ pub(crate) fn whole_power_slope(base: Interval, exponent: u8) -> Interval {
     multiply(Interval::point(f64::from(exponent)), less)
 }
 
-/// The ranges of the three partial derivatives of noise.
-pub(crate) fn noise_slopes(place: [Interval; 3]) -> [Interval; 3] {
+/// The ranges of noise and of its three partial derivatives.
+pub(crate) fn noise_with_slopes(place: [Interval; 3]) -> NoiseRange {
     let most = Interval { low: -STEEPEST, high: STEEPEST, partial: false };
-    let Some(Cell { middle: [x, y, z], reach }) = cell(place) else { return [Interval::UNKNOWN; 3] };
-    let reach = MOST_CURVED * reach + 1e-12;
-    noise_at(x, y, z)
-        .gradient
-        .map(|slope| Interval { low: slope - reach, high: slope + reach, partial: false }.intersection(&most))
+    let Some(cell) = cell(place) else {
+        return NoiseRange { value: noise(place), slopes: [Interval::UNKNOWN; 3] };
+    };
+    if place.iter().any(Interval::is_empty) {
+        return NoiseRange { value: Interval::EMPTY, slopes: [Interval::UNKNOWN; 3] };
+    }
+    let [x, y, z] = cell.middle;
+    let middle = noise_at(x, y, z);
+    let reach = MOST_CURVED * cell.reach + 1e-12;
+    let slopes = middle.gradient.map(|slope| {
+        Interval { low: slope - reach, high: slope + reach, partial: false }.intersection(&most)
+    });
+    let partial = place.iter().any(|range| range.partial);
+    NoiseRange { value: noise_around(&middle, &cell).partial_if(partial), slopes }
+}
+
+/// Ranges of noise and of its partial derivatives.
+pub(crate) struct NoiseRange {
+    pub(crate) value: Interval,
+    pub(crate) slopes: [Interval; 3],
 }
 
 /// A slope times a derivative; nothing times anything is nothing.

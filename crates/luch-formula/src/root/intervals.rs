@@ -6,7 +6,7 @@
 //! the root. The idea is that of Mitchell (1990), "Robust ray intersection with interval arithmetic".
 
 use super::{FirstRoot, Line, Piece, RootFinder};
-use crate::interval::{Interval, IntervalDerivative, binary};
+use crate::interval::{Interval, IntervalDerivative, binary, down, up};
 use crate::operation::Binary;
 
 /// A piece with a pole in it is halved until it is this part of the tolerance.
@@ -45,6 +45,7 @@ impl RootFinder<'_> {
         }
         let middle = 0.5 * first + 0.5 * last;
         let smooth = range.derivative.is_bounded() && range.value.is_bounded();
+        let mut clear = Clear { before: 0.0, behind: 0.0 };
         if smooth && first < last {
             let at_middle = self.sure_value(line, middle);
             let reach = binary(
@@ -61,6 +62,7 @@ impl RootFinder<'_> {
             if !range.derivative.contains_zero() {
                 return self.monotone(line, piece);
             }
+            clear = clear_around(at_middle, range.derivative);
         }
         let shortest =
             if range.value.is_bounded() || range.value.partial && range.value.width() < f64::INFINITY {
@@ -70,8 +72,15 @@ impl RootFinder<'_> {
             };
         let divisible = first < middle && middle < last;
         if divisible && last - first > shortest {
-            self.waiting.push(Piece { first: middle, last });
-            self.waiting.push(Piece { first, last: middle });
+            // Rounded toward the middle, beyond which nothing is given away.
+            let (left, right) =
+                (up(middle - clear.before).min(middle), down(middle + clear.behind).max(middle));
+            if right <= last {
+                self.waiting.push(Piece { first: right, last });
+            }
+            if left >= first {
+                self.waiting.push(Piece { first, last: left });
+            }
             return FirstRoot::None;
         }
         if range.value.width() == f64::INFINITY {
@@ -166,4 +175,24 @@ impl RootFinder<'_> {
 fn along(origin: f64, direction: f64, parameter: Interval) -> Interval {
     let moved = binary(Binary::Multiply, parameter, Interval::point(direction), false);
     binary(Binary::Add, Interval::point(origin), moved, false)
+}
+
+/// How far from a place there is no root.
+struct Clear {
+    before: f64,
+    behind: f64,
+}
+
+/// By the mean value theorem: a value cannot come to zero sooner than its steepest slope leads there.
+fn clear_around(value: Interval, derivative: Interval) -> Clear {
+    let (size, falls, rises) = if value.low > 0.0 {
+        (value.low, -derivative.low, derivative.high)
+    } else if value.high < 0.0 {
+        (-value.high, derivative.high, -derivative.low)
+    } else {
+        return Clear { before: 0.0, behind: 0.0 };
+    };
+    // The quotient is rounded, and too small a one vanishes.
+    let reach = |slope: f64| if slope > 0.0 { down(size / slope).max(0.0) } else { f64::INFINITY };
+    Clear { before: reach(rises), behind: reach(falls) }
 }

@@ -3,8 +3,8 @@
 use super::point::with_registers;
 use super::simplify::{Choices, Traced, choice};
 use super::{Program, Tape};
-use crate::interval::{self, Interval, IntervalDerivative};
-use crate::operation::{Binary, Operation};
+use crate::interval::{self, Interval, IntervalDerivative, SineAndCosine};
+use crate::operation::{Binary, Operation, Unary};
 
 impl Tape {
     /// A range that holds every value of the first output over a box.
@@ -107,12 +107,28 @@ impl Tape {
         }
         for instruction in &program.instructions {
             let of = |register: u32| registers[register as usize];
-            let value = value(&instruction.operation, |register| of(register).value);
-            let mut derivative = derivative(&instruction.operation, value, of);
-            if value.partial {
-                derivative = Interval::UNKNOWN;
+            let mut result = match instruction.operation {
+                Operation::Noise { x, y, z } => noise([x, y, z].map(of)),
+                Operation::Unary { function: Unary::Sin, a } => {
+                    let SineAndCosine { sine, cosine } = interval::sine_and_cosine(of(a).value);
+                    let derivative = interval::chain(cosine, of(a).derivative);
+                    IntervalDerivative { value: sine, derivative }
+                }
+                Operation::Unary { function: Unary::Cos, a } => {
+                    let SineAndCosine { sine, cosine } = interval::sine_and_cosine(of(a).value);
+                    let slope = interval::unary(Unary::Negate, sine);
+                    IntervalDerivative { value: cosine, derivative: interval::chain(slope, of(a).derivative) }
+                }
+                _ => {
+                    let value = value(&instruction.operation, |register| of(register).value);
+                    let derivative = derivative(&instruction.operation, value, of);
+                    IntervalDerivative { value, derivative }
+                }
+            };
+            if result.value.partial {
+                result.derivative = Interval::UNKNOWN;
             }
-            registers[instruction.out as usize] = IntervalDerivative { value, derivative };
+            registers[instruction.out as usize] = result;
         }
         registers[program.output_registers[0] as usize]
     }
@@ -170,12 +186,15 @@ fn derivative(operation: &Operation, value: Interval, of: impl Fn(u32) -> Interv
                 None => Interval::UNKNOWN,
             }
         }
-        Operation::Noise { x, y, z } => {
-            let place = [of(x), of(y), of(z)];
-            let slopes = interval::noise_slopes(place.map(|coordinate| coordinate.value));
-            let parts: [Interval; 3] =
-                std::array::from_fn(|axis| interval::chain(slopes[axis], place[axis].derivative));
-            sum(sum(parts[0], parts[1]), parts[2])
-        }
+        Operation::Noise { x, y, z } => noise([of(x), of(y), of(z)]).derivative,
     }
+}
+
+/// Noise is looked at once for both.
+fn noise(place: [IntervalDerivative; 3]) -> IntervalDerivative {
+    let sum = |a: Interval, b: Interval| interval::binary(Binary::Add, a, b, false);
+    let range = interval::noise_with_slopes(place.map(|coordinate| coordinate.value));
+    let parts: [Interval; 3] =
+        std::array::from_fn(|axis| interval::chain(range.slopes[axis], place[axis].derivative));
+    IntervalDerivative { value: range.value, derivative: sum(sum(parts[0], parts[1]), parts[2]) }
 }
