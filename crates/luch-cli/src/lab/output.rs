@@ -10,7 +10,7 @@ use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
 /// Columns of figures in the terminal.
-const COLUMNS: usize = 100;
+const COLUMNS: usize = 80;
 
 /// A page that says how it was made.
 pub(super) fn report(title: impl Into<String>) -> Report {

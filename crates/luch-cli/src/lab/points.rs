@@ -76,8 +76,7 @@ pub(super) fn measure(args: &MeasureArgs) -> Result<Outcome, Failure> {
         let highest = (2.0 * (pairs.len() as f64).sqrt()).clamp(8.0, 96.0) as u32;
         let spectrum = measure::spectrum(&pairs, highest);
         let curve = spectrum.rings.iter().filter(|ring| ring.radius > 0.0 && ring.mean > 0.0);
-        rings =
-            rings.line(rule.name(), Ink::of(place), curve.map(|ring| [ring.radius, ring.mean]).collect());
+        rings = rings.line(rule.name(), Ink::of(place), curve.map(|ring| [ring.radius, ring.mean]).collect());
         spectra.push(spectrum_figure(rule, &spectrum));
     }
     let columns = spectra.len().clamp(1, 4);

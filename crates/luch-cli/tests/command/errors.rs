@@ -73,7 +73,7 @@ fn glass_without_an_inside_is_told() {
     let place = Workplace::empty();
     let scene = |mesh: &str| {
         format!(
-            "luch 1\nmaterial \"g\" {{ glass }}\nobject \"bowl\" material=\"g\" {{ mesh {{ {mesh} }} }}\n"
+            "luch 1\nmaterial \"g\" {{ dielectric ior=1.5 }}\nobject \"bowl\" material=\"g\" {{ mesh {{ {mesh} }} }}\n"
         )
     };
     place.write("open.kdl", &scene("teapot"));

@@ -4,6 +4,7 @@ mod bench;
 mod compare;
 mod errors;
 mod interrupt;
+mod lab;
 mod merge;
 mod mesh;
 mod outputs;

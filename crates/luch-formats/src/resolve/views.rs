@@ -62,5 +62,5 @@ fn view(camera: &Camera, rows: u32) -> ScreenView {
 }
 
 fn double(map: &Affine3A) -> DAffine3 {
-    DAffine3 { matrix3: glam::DMat3::from(map.matrix3.as_dmat3()), translation: map.translation.as_dvec3() }
+    DAffine3 { matrix3: map.matrix3.as_dmat3(), translation: map.translation.as_dvec3() }
 }

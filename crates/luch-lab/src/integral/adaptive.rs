@@ -36,9 +36,12 @@ impl Target {
         for goal in goals.split(" or ") {
             let (start, words) = (at + goal.len() - goal.trim_start().len(), goal.trim());
             at += goal.len() + 4;
-            let (word, number) =
-                words.split_once(' ').ok_or_else(|| TextError::new(expected, text, start))?;
-            let value = text_error::constant(text, start + word.len() + 1, number)?;
+            let end = words.find(|letter: char| !letter.is_ascii_alphabetic()).unwrap_or(words.len());
+            let (word, number) = words.split_at(end);
+            if number.trim().is_empty() {
+                return Err(TextError::new(expected, text, start));
+            }
+            let value = text_error::constant(text, start + word.len(), number)?;
             if !(value > 0.0 && value.is_finite()) {
                 return Err(TextError::new(format!("an error must be positive, not {value}"), text, start));
             }

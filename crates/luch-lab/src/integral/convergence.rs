@@ -157,7 +157,7 @@ pub fn convergence_figure(title: &str, measured: &[Convergence]) -> Figure {
     for (at, one) in measured.iter().enumerate() {
         let points: Vec<[f64; 2]> = one.rows.iter().map(|row| [row.samples as f64, row.rmse]).collect();
         let name = match one.slope {
-            Some(fit) => format!("{} ({:.2})", one.name, fit.slope).replace('-', "−"),
+            Some(fit) => format!("{} ({})", one.name, format!("{:.2}", fit.slope).replace('-', "−")),
             None => one.name.clone(),
         };
         figure = figure.marked(name, Ink::of(at), Marker::of(at), points);

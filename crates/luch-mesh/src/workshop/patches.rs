@@ -151,7 +151,10 @@ fn triangles(model: &PatchModel, arguments: &Arguments) -> Result<PolygonMesh, W
     let wishes = ["tolerance", "divisions", "pixels"].map(given);
     if let Some(second) = (0..3).filter(|&k| wishes[k]).nth(1) {
         let name = ["tolerance", "divisions", "pixels"][second];
-        return Err(WorkshopError::of(name, "cannot be given beside the wish for fineness before it; give one"));
+        return Err(WorkshopError::of(
+            name,
+            "cannot be given beside the wish for fineness before it; give one",
+        ));
     }
     // Points in one place ask for nothing.
     let usual = || Fineness::Tolerance((model.extent() / 1000.0).max(f64::MIN_POSITIVE));

@@ -10,6 +10,7 @@ use luch::image::compare::compare;
 use luch::mesh::query::{DeviationOptions, hausdorff};
 use luch::mesh::workshop::{Arguments, NoFiles, Pipeline, Step, find};
 use luch::mesh::{TriangleMesh, measure};
+use luch::sampling::check::fit_slope;
 use luch::scene::{Frustum, Implicit, Shape, Traced};
 use serde_json::json;
 
@@ -100,13 +101,13 @@ fn tell(args: &CompareMeshesArgs, form: &Form, rows: &[Row], reference: &Triangl
     for (k, row) in rows.iter().enumerate() {
         let before = k.checked_sub(1).map(|k| &rows[k]);
         let order = |value: fn(&Row) -> f64| {
-            let pieces = |row: &Row| {
-                let resolution = f64::from(row.resolution);
-                if form.doubles { resolution } else { resolution.log2() }
+            let pieces = |row: &Row| match form.doubles {
+                true => (1u64 << row.resolution.min(32)) as f64,
+                false => f64::from(row.resolution),
             };
-            let slope =
-                before.map(|before| (value(row) / value(before)).log2() / (pieces(row) - pieces(before)));
-            slope.filter(|slope| slope.is_finite()).map_or(String::new(), |slope| format!("{slope:.2}"))
+            let points = before.map(|before| [before, row].map(|row| [pieces(row), value(row)]));
+            let fit = points.and_then(|points| fit_slope(&points));
+            fit.map_or(String::new(), |fit| format!("{:.2}", fit.slope))
         };
         say(&format!(
             "{:>12}  {:>9}  {:>12}  {:>6}  {:>12}  {:>6}",

@@ -262,7 +262,10 @@ fn senseless_wishes_are_refused() {
         assert!(model.tessellate(Fineness::Tolerance(tolerance)).is_err());
     }
     for fineness in [Fineness::Tolerance(1e-300), Fineness::Tolerance(1e-12), Fineness::Divisions(u32::MAX)] {
-        assert!(matches!(model.tessellate(fineness.clone()), Err(PatchError::TooFine { .. })), "{fineness:?}");
+        assert!(
+            matches!(model.tessellate(fineness.clone()), Err(PatchError::TooFine { .. })),
+            "{fineness:?}"
+        );
     }
     let huge = PatchModel::from(shapes::sphere(1e17).unwrap());
     assert!(huge.tessellate(Fineness::Tolerance(0.001)).is_err());
