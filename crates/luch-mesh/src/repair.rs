@@ -7,6 +7,7 @@ mod holes;
 mod manifold;
 mod merge;
 mod orient;
+mod slivers;
 mod sound;
 
 use std::fmt;
@@ -18,6 +19,7 @@ pub use holes::{Filling, MOST_CORNERS, fill_holes};
 pub use manifold::make_manifold;
 pub use merge::{keep_largest, merge, remove_duplicate_faces};
 pub use orient::orient;
+pub use slivers::{Dropped, drop_slivers};
 pub use sound::{Sound, sound};
 
 /// What [`repair`] did.

@@ -22,6 +22,7 @@ pub(super) const VERBS: &[Verb] = &[
     bodies::DIFFERENCE,
     bodies::HULL,
     reductions::DECIMATE,
+    reductions::DROP_SLIVERS,
     reductions::CLUSTER,
     reductions::SMOOTH,
     reductions::REMESH,

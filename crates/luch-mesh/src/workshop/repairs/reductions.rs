@@ -1,9 +1,10 @@
 //! Fewer triangles, even triangles, smooth positions.
 
-use crate::PolygonMesh;
+use crate::repair::drop_slivers;
 use crate::simplify::{self, cluster, simplify};
 use crate::smooth::{self, Remesh, Weights, remesh, smooth};
 use crate::workshop::{Action, Arguments, Keeps, Kind, Parameter, Verb, WorkshopError};
+use crate::{PolygonMesh, measure};
 
 pub(super) const DECIMATE: Verb = Verb {
     name: "decimate",
@@ -24,6 +25,21 @@ pub(super) const DECIMATE: Verb = Verb {
     ],
     example: "--ratio 0.5",
     action: Action::Change { keeps: Keeps { closed: true, uvs: true, ..Keeps::NOTHING }, run: decimate },
+};
+
+pub(super) const DROP_SLIVERS: Verb = Verb {
+    name: "drop-slivers",
+    summary: "Take away triangles that are hardly there: needles are drawn together, caps turned",
+    parameters: &[Parameter::optional(
+        "height",
+        Kind::POSITIVE,
+        "the height below which a triangle is a sliver, in metres; a hundred-thousandth of the size if it is not given",
+    )],
+    example: "--height 0.001",
+    action: Action::Change {
+        keeps: Keeps { closed: true, uvs: true, ..Keeps::NOTHING },
+        run: without_slivers,
+    },
 };
 
 pub(super) const CLUSTER: Verb = Verb {
@@ -90,6 +106,16 @@ fn decimate(mesh: PolygonMesh, arguments: &Arguments) -> Result<PolygonMesh, Wor
         keeps_borders: arguments.flag("borders"),
     };
     Ok(PolygonMesh::from(&simplify(&mesh, &settings).mesh))
+}
+
+fn without_slivers(mesh: PolygonMesh, arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
+    let triangles = mesh.triangulate();
+    let bounds = measure::bounds(&triangles);
+    let usual = f64::from((bounds.max - bounds.min).max_element()) * 1e-5;
+    let height = arguments.number_if_given("height").unwrap_or(usual);
+    let dropped = drop_slivers(&triangles, height);
+    // Faces of more corners stay where nothing is to be done.
+    Ok(if dropped.changes == 0 { mesh } else { PolygonMesh::from(&dropped.mesh) })
 }
 
 fn merge_cells(mesh: PolygonMesh, arguments: &Arguments) -> Result<PolygonMesh, WorkshopError> {
