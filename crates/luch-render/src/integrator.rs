@@ -7,7 +7,9 @@ mod plain_path;
 
 pub use inspect::Inspect;
 pub use occlusion::Occlusion;
-pub use path::PathTracer;
+pub use path::{
+    AskedLamp, Departure, FollowedPath, FoundOnPath, MetSurface, PathEnd, PathTracer, PathVertex,
+};
 pub use plain_path::PlainPathTracer;
 
 use crate::stop::{Stop, Stopped};

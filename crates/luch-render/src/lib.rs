@@ -66,9 +66,12 @@ pub use emitter::{EmitterSample, FlatForm, FlatLamp};
 pub use film::{BUNDLE, Coverage, ErrorEstimate, Film, Losses, MeanEstimate, PixelEstimate, TILE, Tile};
 pub use fingerprint::Fingerprint;
 pub use geometry::Geometry;
+pub use integrator::{
+    AskedLamp, Departure, FollowedPath, FoundOnPath, MetSurface, PathEnd, PathVertex,
+};
 pub use integrator::{Inspect, Integrator, Occlusion, PathTracer, PlainPathTracer, from_settings};
 pub use job::{Ending, Goal, JobEnd, JobPlan, OnSnapshot, Progress, RenderJob, StartError};
-pub use lights::{Candidate, ChosenEmitter, FoundLight, Lights, Receiver};
+pub use lights::{Candidate, ChosenEmitter, FoundLight, LightSource, Lights, Receiver};
 pub use material::{bsdf_at, emitted};
 pub use merge::MergeError;
 pub use pass::render_pass;

@@ -81,6 +81,17 @@ pub struct ChosenEmitter {
     pub probability: f32,
 }
 
+/// What of a scene an emitter belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum LightSource {
+    /// The instance of this number shines.
+    Instance(u32),
+    /// The lamp without a surface of this number.
+    Lamp(u32),
+    /// What surrounds the scene.
+    Environment,
+}
+
 impl Lights {
     /// Finds everything that shines.
     pub(crate) fn build(scene: &Scene) -> Self {
@@ -203,6 +214,26 @@ impl Lights {
         self.places.get(instance, primitive)
     }
 
+    /// What an emitter belongs to.
+    ///
+    /// # Panics
+    /// If there is no emitter of this number.
+    pub fn source(&self, emitter: u32) -> LightSource {
+        let Some(other) = (emitter as usize).checked_sub(self.flat.len()) else {
+            return LightSource::Instance(self.flat[emitter as usize].instance());
+        };
+        match &self.others[other] {
+            Emitter::Ball(ball) => LightSource::Instance(ball.instance()),
+            Emitter::Disc(disc) => LightSource::Instance(disc.instance()),
+            Emitter::Environment(_) => LightSource::Environment,
+            Emitter::Point(_) | Emitter::Spot(_) | Emitter::Sun(_) => {
+                let is_round = |emitter: &&Emitter| matches!(emitter, Emitter::Ball(_) | Emitter::Disc(_));
+                // Round lamps come before those without a surface.
+                LightSource::Lamp((other - self.others.iter().take_while(is_round).count()) as u32)
+            }
+        }
+    }
+
     /// Picks an emitter for a receiver; `None` if none can send it light.
     ///
     /// `normal` has unit length and is on the side that receives light, or is zero where light of all sides counts. `choice` is
@@ -284,6 +315,17 @@ impl Lights {
         normal: Vec3,
         direction: Vec3,
     ) -> impl Iterator<Item = FoundLight> {
+        self.beyond_with_emitter(scene, from, normal, direction).map(|(_, light)| light)
+    }
+
+    /// The same with the number of each emitter.
+    pub(crate) fn beyond_with_emitter(
+        &self,
+        scene: &Scene,
+        from: Vec3,
+        normal: Vec3,
+        direction: Vec3,
+    ) -> impl Iterator<Item = (u32, FoundLight)> {
         self.beyond.iter().filter_map(move |&emitter| {
             let light = match &self.others[emitter as usize - self.flat.len()] {
                 Emitter::Sun(sun) => sun.toward(direction)?,
@@ -291,7 +333,7 @@ impl Lights {
                 _ => return None,
             };
             let chance = if light.pdf > 0.0 { self.probability(emitter, from, normal) } else { 0.0 };
-            Some(FoundLight { radiance: light.radiance, pdf: light.pdf * chance })
+            Some((emitter, FoundLight { radiance: light.radiance, pdf: light.pdf * chance }))
         })
     }
 }

@@ -230,6 +230,21 @@ impl Wave {
         self.paths.is_empty()
     }
 
+    /// The first path.
+    pub(crate) fn first(&self) -> Option<&Path> {
+        self.paths.first()
+    }
+
+    /// What it met.
+    pub(crate) fn first_hit(&self) -> Option<InstanceHit> {
+        self.hits.first().copied().flatten()
+    }
+
+    /// The light of the first ray to a lamp that waits to be traced; black if there is none.
+    pub(crate) fn first_asked(&self) -> Rgb {
+        self.shadows.carried.first().map_or(Rgb::BLACK, |carried| carried.light)
+    }
+
     /// Finds what every path meets next.
     pub(crate) fn extend(&mut self, world: &World) {
         self.rays.clear();

@@ -22,6 +22,11 @@ pub(crate) struct BallEmitter {
 }
 
 impl BallEmitter {
+    /// Number of the instance that shines.
+    pub(crate) fn instance(&self) -> u32 {
+        self.instance
+    }
+
     /// The emitter of a sphere of `radius` placed by a similarity.
     pub(crate) fn new(
         radius: f32,

@@ -23,6 +23,11 @@ pub(crate) struct DiscEmitter {
 }
 
 impl DiscEmitter {
+    /// Number of the instance that shines.
+    pub(crate) fn instance(&self) -> u32 {
+        self.instance
+    }
+
     /// The emitter of a disc of `radius` placed by a similarity.
     pub(crate) fn new(
         radius: f32,

@@ -89,6 +89,11 @@ pub(crate) fn constant_radiance(material: &Material) -> Option<Rgb> {
 }
 
 impl FlatLamp {
+    /// Number of the instance that shines.
+    pub fn instance(&self) -> u32 {
+        self.instance
+    }
+
     /// The lamp of a triangle in the world; `outward` fixes which side is the front. `None` if it has no area.
     pub(crate) fn triangle(
         scene: &Scene,

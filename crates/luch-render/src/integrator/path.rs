@@ -1,6 +1,9 @@
 //! Path tracing with light sampling and multiple importance sampling (Veach 1997), one bounce of a whole wave at a time.
 
+mod follow;
 mod lanes;
+
+pub use follow::{AskedLamp, Departure, FollowedPath, FoundOnPath, MetSurface, PathEnd, PathVertex};
 
 use super::Integrator;
 use crate::cone::Cone;
@@ -51,26 +54,7 @@ impl Integrator for PathTracer {
         while !wave.is_empty() {
             stop.check()?;
             wave.extend(world);
-            wave.shade(
-                world,
-                radiance,
-                |path, hit, found| match hit {
-                    None => {
-                        escape(world, path, found, share);
-                        false
-                    }
-                    Some(hit) => {
-                        let mut point = SurfacePoint::new(&world.scene, &world.geometry, &path.ray, hit);
-                        point.width = path.reading_cone().at(hit.hit.t);
-                        self.arrive(world, path, &point, found, share)
-                    }
-                },
-                |paths, arrivals, found, alive| {
-                    if bounce < self.max_depth {
-                        arrive_plain(world, paths, arrivals, found, alive, share);
-                    }
-                },
-            );
+            self.shade(world, &mut wave, bounce, share, radiance);
             wave.connect(world, bounce, radiance);
             bounce += 1;
         }
@@ -158,6 +142,30 @@ fn arrive_plain(
 }
 
 impl PathTracer {
+    /// Lets every path of a wave deal with what it met.
+    fn shade(&self, world: &World, wave: &mut Wave, bounce: u32, share: bool, radiance: &mut [Rgb]) {
+        wave.shade(
+            world,
+            radiance,
+            |path, hit, found| match hit {
+                None => {
+                    escape(world, path, found, share);
+                    false
+                }
+                Some(hit) => {
+                    let mut point = SurfacePoint::new(&world.scene, &world.geometry, &path.ray, hit);
+                    point.width = path.reading_cone().at(hit.hit.t);
+                    self.arrive(world, path, &point, found, share)
+                }
+            },
+            |paths, arrivals, found, alive| {
+                if bounce < self.max_depth {
+                    arrive_plain(world, paths, arrivals, found, alive, share);
+                }
+            },
+        );
+    }
+
     /// The path meets a surface. False if it ends there.
     fn arrive(
         &self,
