@@ -9,8 +9,8 @@ mod render;
 
 pub(crate) use bench::{BenchArgs, BenchVerb, CameraArgs, Choice, RaysArgs};
 pub(crate) use lab::{
-    DensityArgs, DimensionsArgs, IntegrateArgs, LabArgs, LabOutputArgs, LabVerb, LectureArgs, MeasureArgs,
-    PointsArgs, PrngArgs, ProblemArgs, Rules, SlopesArgs,
+    DensityArgs, DimensionsArgs, ExplainArgs, IntegrateArgs, LabArgs, LabOutputArgs, LabVerb, LectureArgs,
+    MeasureArgs, PointsArgs, PrngArgs, ProblemArgs, Rules, SlopesArgs,
 };
 pub(crate) use mesh::{
     CompareMeshesArgs, ConvertArgs, InfoArgs, MeshArgs, MeshOutputArgs, QueryArgs, RunArgs, SampleArgs,

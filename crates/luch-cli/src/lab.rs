@@ -1,5 +1,6 @@
 //! `luch lab`: Monte Carlo made visible.
 
+mod explain;
 mod integrate;
 mod lecture;
 mod output;
@@ -22,6 +23,7 @@ pub(crate) fn run(args: &LabArgs) -> Result<Outcome, Failure> {
         LabVerb::Density(args) => study::density(args),
         LabVerb::Dimensions(args) => study::dimensions(args),
         LabVerb::Prng(args) => prng::run(args),
+        LabVerb::Explain(args) => explain::run(args),
         LabVerb::Lecture(args) => lecture::run(args),
     }
 }

@@ -9,6 +9,7 @@
 //! | What is the integral of a formula, and how sure is that? | [`integral`]: densities, convergence, a stopping rule |
 //! | What is Monte Carlo first tried on? | [`problem`]: problems with known answers |
 //! | What does a density do? | [`density`]: pictures, weights, widths, several at once |
+//! | Why is this pixel as it is? | [`explain`]: its paths, by depth, lamp and technique |
 //! | How does it look? | [`figure`]: SVG, PNG, terminal, CSV, JSON; [`report`]: a page of HTML |
 //!
 //! The area of a disc by scrambled Sobol' points, and how even they are beside independent ones:
@@ -29,6 +30,7 @@
 //! Everything is a function of its arguments and the same on every machine and any number of threads.
 
 pub mod density;
+pub mod explain;
 pub mod figure;
 pub mod generator;
 pub mod integral;

@@ -33,6 +33,8 @@ pub enum Section {
     Heading(String),
     /// A paragraph.
     Text(String),
+    /// Lines whose spaces and breaks count.
+    Preformatted(String),
     /// Rows of numbers.
     Table(Table),
     /// A figure.
@@ -126,6 +128,12 @@ impl Report {
         self.with(Section::Text(text.into()))
     }
 
+    /// The same with lines more whose spaces and breaks count.
+    #[must_use]
+    pub fn preformatted(self, text: impl Into<String>) -> Self {
+        self.with(Section::Preformatted(text.into()))
+    }
+
     /// The same with a table more.
     #[must_use]
     pub fn table(self, table: Table) -> Self {
@@ -154,6 +162,7 @@ impl Report {
             let _ = match section {
                 Section::Heading(text) => writeln!(out, "<h2>{}</h2>", escaped(text)),
                 Section::Text(text) => writeln!(out, "<p>{}</p>", escaped(text)),
+                Section::Preformatted(text) => writeln!(out, "<pre>{}</pre>", escaped(text)),
                 Section::Table(table) => writeln!(out, "{}", html_of(table)),
                 Section::Figure(figure) => writeln!(out, "<figure>{}</figure>", figure.to_svg()),
                 Section::Sheet(sheet) => writeln!(out, "<figure class=\"wide\">{}</figure>", sheet.to_svg()),
@@ -173,6 +182,7 @@ impl Report {
             match section {
                 Section::Heading(text) => out.push_str(&format!("\n{text}\n")),
                 Section::Text(text) => out.push_str(&format!("{text}\n")),
+                Section::Preformatted(text) => out.push_str(text),
                 Section::Table(table) => out.push_str(&table.to_text()),
                 Section::Figure(figure) => out.push_str(&figure.to_terminal(columns, depth)),
                 Section::Sheet(sheet) => out.push_str(&sheet.to_terminal(columns, depth)),
@@ -245,11 +255,13 @@ mod tests {
             .with_command("luch lab x --density \"a & b\"")
             .heading("h")
             .text("t")
+            .preformatted("a\n  <b")
             .table(table)
             .figure(figure.clone())
             .sheet(Sheet::new("s", 2, vec![figure.clone(), figure]));
         let html = report.to_html();
         assert!(!html.contains("<script") && !html.contains("http://") || html.matches("http").count() == 2);
+        assert!(html.contains("<pre>a\n  &lt;b</pre>"));
         assert!(html.contains("a &amp; b") && html.contains("<svg") && html.ends_with("</html>\n"));
         assert!(!html.contains("src=") && !html.contains("@import"));
         assert!(report.to_terminal(60, Depth::Letters).contains("Again: luch lab x"));

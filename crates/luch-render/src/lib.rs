@@ -66,9 +66,7 @@ pub use emitter::{EmitterSample, FlatForm, FlatLamp};
 pub use film::{BUNDLE, Coverage, ErrorEstimate, Film, Losses, MeanEstimate, PixelEstimate, TILE, Tile};
 pub use fingerprint::Fingerprint;
 pub use geometry::Geometry;
-pub use integrator::{
-    AskedLamp, Departure, FollowedPath, FoundOnPath, MetSurface, PathEnd, PathVertex,
-};
+pub use integrator::{AskedLamp, Departure, FollowedPath, FoundOnPath, MetSurface, PathEnd, PathVertex};
 pub use integrator::{Inspect, Integrator, Occlusion, PathTracer, PlainPathTracer, from_settings};
 pub use job::{Ending, Goal, JobEnd, JobPlan, OnSnapshot, Progress, RenderJob, StartError};
 pub use lights::{Candidate, ChosenEmitter, FoundLight, LightSource, Lights, Receiver};

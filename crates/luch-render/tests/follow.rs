@@ -12,7 +12,8 @@ fn scenes() -> Vec<(&'static str, Scene)> {
         if let luch_scene::Surface::Diffuse { color } = material.surface
             && material.emission.is_none()
         {
-            material.surface = luch_scene::Surface::Dielectric { ior: 1.5, roughness: 0.3.into(), tint: color };
+            material.surface =
+                luch_scene::Surface::Dielectric { ior: 1.5, roughness: 0.3.into(), tint: color };
         }
     }
     let mut lamps = preset::cornell_box();

@@ -1,5 +1,9 @@
 //! `luch lab`: what was typed.
 
+mod explain;
+
+pub(crate) use explain::ExplainArgs;
+
 use crate::parse;
 use clap::{Args, Subcommand};
 use luch_lab::figure::Theme;
@@ -34,6 +38,7 @@ pub(crate) enum LabVerb {
     Prng(PrngArgs),
     Density(DensityArgs),
     Dimensions(DimensionsArgs),
+    Explain(ExplainArgs),
     Lecture(LectureArgs),
     /// A problem by its name.
     #[command(external_subcommand)]

@@ -35,6 +35,7 @@ pub(super) fn run(words: &[OsString]) -> Result<Outcome, Failure> {
             "prng",
             "density",
             "dimensions",
+            "explain",
             "lecture",
         ];
         let known = Problem::NAMES.iter().copied().chain(verbs);

@@ -92,3 +92,18 @@ fn the_lecture_has_its_figures() {
     }
     assert!(std::fs::read_to_string(place.path("figures/index.html")).unwrap().contains("fifteen planes"));
 }
+
+#[test]
+fn pixels_are_explained() {
+    let place = Workplace::new();
+    let said =
+        place.done("lab explain scene.kdl --pixel 3,4 --size 16x16 --spp 64 --sample 5 -o pixel.html").out;
+    for word in ["camera  64 paths", "Sample 5", "p by BSDF", "scatterings", "Brightest"] {
+        assert!(said.contains(word), "{word}: {said}");
+    }
+    assert!(String::from_utf8(place.bytes("pixel.html")).unwrap().contains("luch lab explain"));
+    assert!(place.fails("lab explain scene.kdl --pixel 99,0 --size 16x16", 1).err.contains("16x16"));
+    assert!(place.fails("lab explain scene.kdl --pixel 3", 2).err.contains("column and row"));
+    let other = place.fails("lab explain scene.kdl --pixel 3,4 --integrator normal", 2).err;
+    assert!(other.contains("`path`"), "{other}");
+}
