@@ -3,6 +3,7 @@
 mod explain;
 mod integrate;
 mod lecture;
+mod live;
 mod output;
 mod points;
 mod prng;

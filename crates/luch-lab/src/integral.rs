@@ -27,7 +27,7 @@ mod sums;
 mod tail;
 mod text_error;
 
-pub use adaptive::{Coverage, Look, Outcome, Target, Verdict, coverage, until};
+pub use adaptive::{Coverage, Look, Outcome, Target, Verdict, coverage, until, until_watched};
 pub use convergence::{Convergence, Row, SlopeFit, convergence, convergence_figure};
 pub use density::{AxisDensity, Density, Drawn, Share};
 pub use domain::{Domain, MOST_DIMENSIONS, Side};

@@ -1,15 +1,18 @@
 //! `luch lab integrate`: any integral.
 
+use super::live::Live;
 use super::output::{give, report};
 use crate::args::IntegrateArgs;
 use crate::failure::{Failure, Outcome};
+use crate::interrupt::Interrupt;
 use luch_lab::figure::{Axis, Between, Figure, Ink};
 use luch_lab::integral::{
-    Convergence, Integral, Outcome as Found, RulePoints, Target, Verdict, convergence, convergence_figure,
-    until,
+    Convergence, Integral, Look, Outcome as Found, RulePoints, Target, Verdict, convergence,
+    convergence_figure, until_watched,
 };
 use luch_lab::points::Rule;
 use luch_lab::report::{Report, Table};
+use std::ops::ControlFlow;
 
 pub(super) fn run(args: &IntegrateArgs) -> Result<Outcome, Failure> {
     let mut integral = Integral::new(&args.formula, &args.over)?;
@@ -32,6 +35,7 @@ fn compare(args: &IntegrateArgs, integral: &Integral, title: String) -> Result<O
     let mut found = Vec::new();
     let rules: Vec<Rule> = args.sampler.iter().flat_map(|rules| rules.0.iter().copied()).collect();
     let is_all = rules.len() >= Rule::ALL.len();
+    let mut live = Live::new(args.output.json);
     for rule in rules {
         let sizes: Vec<u64> = args.n.0.iter().map(|&size| rule.nearest_count(size, dimensions)).collect();
         match sizes.iter().try_for_each(|&size| rule.accepts(size, dimensions)) {
@@ -43,7 +47,9 @@ fn compare(args: &IntegrateArgs, integral: &Integral, title: String) -> Result<O
         // Without chance all replicates are one.
         let points = RulePoints { rule, seed: args.seed };
         found.push(convergence(rule.name(), integral, &points, &sizes, args.replicates));
+        live.show(|| convergence_figure(&title, &found));
     }
+    live.end();
     let mut page = report(title.clone());
     if let Some(place) = integral.blind_spot() {
         page = page.text(format!("WARNING: the density is zero where the integrand is not, as at {place:?}: the result is too small."));
@@ -88,7 +94,14 @@ fn go_on(
 ) -> Result<Outcome, Failure> {
     let points = RulePoints { rule: Rule::SobolHashed, seed: args.seed };
     Rule::SobolHashed.accepts(1, integral.dimensions())?;
-    let found = until(integral, &points, target, args.limit);
+    let interrupt = Interrupt::install()?;
+    interrupt.work_begins();
+    let mut live = Live::new(args.output.json);
+    let found = until_watched(integral, &points, target, args.limit, &mut |looks| {
+        live.show(|| looks_figure(looks, integral));
+        if interrupt.pen().is_interrupted() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    live.end();
     let result = match (found.verdict, found.half_width) {
         (Verdict::Reached, Some(half)) => {
             format!("{:.12} ± {half:.2e} after {} samples", found.estimate, found.samples)
@@ -98,6 +111,9 @@ fn go_on(
                 "{:.12} ± {half:.2e} after {} samples: the limit; the target is not reached",
                 found.estimate, found.samples
             )
+        }
+        (Verdict::Interrupted, Some(half)) => {
+            format!("{:.12} ± {half:.2e} after {} samples: interrupted", found.estimate, found.samples)
         }
         (Verdict::HeavyTail, _) => {
             format!("{:.6}, without an interval: the variance may be infinite", found.estimate)
@@ -114,7 +130,11 @@ fn go_on(
     }
     page = found.warnings.iter().fold(page, |page, warning| page.text(format!("WARNING: {warning}")));
     let outcome = give(&looks(page, &found, integral), &args.output)?;
-    Ok(if found.verdict == Verdict::Reached { outcome } else { Outcome::Unmet })
+    Ok(match found.verdict {
+        Verdict::Reached => outcome,
+        Verdict::Interrupted => Outcome::Interrupted,
+        _ => Outcome::Unmet,
+    })
 }
 
 fn looks(page: Report, found: &Found, integral: &Integral) -> Report {
@@ -129,23 +149,23 @@ fn looks(page: Report, found: &Found, integral: &Integral) -> Report {
             format!("{:.2e}", look.half_width),
         ]);
     }
-    let band = found
-        .looks
-        .iter()
-        .map(|look| Between {
-            x: look.samples as f64,
-            low: look.estimate - look.half_width,
-            high: look.estimate + look.half_width,
-        })
-        .collect();
-    let line = found.looks.iter().map(|look| [look.samples as f64, look.estimate]).collect();
-    let mut figure = Figure::new("The estimate and its interval")
+    page.table(table).figure(looks_figure(&found.looks, integral))
+}
+
+fn looks_figure(looks: &[Look], integral: &Integral) -> Figure {
+    let between = |look: &Look| Between {
+        x: look.samples as f64,
+        low: look.estimate - look.half_width,
+        high: look.estimate + look.half_width,
+    };
+    let line = looks.iter().map(|look| [look.samples as f64, look.estimate]).collect();
+    let figure = Figure::new("The estimate and its interval")
         .with_x(Axis::log2("samples"))
         .with_y(Axis::linear("estimate"))
-        .band("interval", Ink::of(0), band)
+        .band("interval", Ink::of(0), looks.iter().map(between).collect())
         .line("estimate", Ink::of(0), line);
-    if let Some(truth) = integral.truth {
-        figure = figure.level("truth", truth);
+    match integral.truth {
+        Some(truth) => figure.level("truth", truth),
+        None => figure,
     }
-    page.table(table).figure(figure)
 }

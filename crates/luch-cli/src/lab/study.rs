@@ -1,5 +1,6 @@
 //! `luch lab slopes`, `density`, `dimensions`.
 
+use super::live::Live;
 use super::output::{give, report};
 use crate::args::{DensityArgs, DimensionsArgs, SlopesArgs};
 use crate::failure::{Failure, Outcome};
@@ -16,6 +17,7 @@ pub(super) fn slopes(args: &SlopesArgs) -> Result<Outcome, Failure> {
     let is_all = rules.len() >= Rule::ALL.len();
     let settings = SlopeSettings { replicates: args.replicates, ..SlopeSettings::default() };
     let mut rows: Vec<Vec<SlopeRow>> = Vec::new();
+    let mut live = Live::new(args.output.json);
     for rule in rules {
         match measure(rule, dimensions, &settings) {
             Ok(found) => rows.push(found),
@@ -23,7 +25,9 @@ pub(super) fn slopes(args: &SlopesArgs) -> Result<Outcome, Failure> {
             Err(_) if is_all => {}
             Err(error) => return Err(error.into()),
         }
+        live.show(|| figure(Integrand::ALL[0], &rows));
     }
+    live.end();
     let mut table = Table::new(std::iter::once("sampler").chain(Integrand::ALL.iter().map(|one| one.name())));
     for found in &rows {
         let Some(first) = found.first() else { continue };

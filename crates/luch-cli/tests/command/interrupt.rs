@@ -80,3 +80,15 @@ fn impatience_leaves_no_torn_files() {
         luch::image::codec::decode(&place.bytes(name), None).unwrap();
     }
 }
+
+#[test]
+fn an_interrupted_integral_gives_what_it_has() {
+    let place = Workplace::empty();
+    let child = place.start("lab integrate exp(x*y) --over x=0..1,y=0..1 --until rel1e-14 --limit 2^32");
+    // Long enough to have begun, far from long enough to end.
+    std::thread::sleep(Duration::from_secs(2));
+    signal(&child, "INT");
+    let said = Said::of(child.wait_with_output().unwrap());
+    assert_eq!(said.code, Some(130), "{}{}", said.out, said.err);
+    assert!(said.out.contains("interrupted") && said.out.contains("±"), "{}", said.out);
+}

@@ -4,6 +4,7 @@ use super::{HashedPoints, Integral, Points, Sums, Tail, TextError, suite, tail_o
 use luch_sampling::check::student_quantile;
 use rayon::prelude::*;
 use serde::Serialize;
+use std::ops::ControlFlow;
 
 /// The error that is wanted: `rel 1e-4 @ 95%`, `abs 0.001 @ 99%`, or both with `or`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -84,6 +85,8 @@ pub enum Verdict {
     NotFinite,
     /// The density is zero where the integrand is not.
     BlindSpot,
+    /// Whoever watched asked for the end; the interval is that of the last look.
+    Interrupted,
 }
 
 /// The state at one look.
@@ -120,6 +123,8 @@ pub struct Outcome {
 const REPLICATES: u64 = 16;
 /// Points of each at the first look.
 const FIRST: u64 = 64;
+/// Points of one replicate between two moments at which the work can be ended.
+const STRETCH: u64 = 1 << 17;
 /// Points for the tail.
 const TAIL_SAMPLES: usize = 1 << 14;
 
@@ -129,20 +134,39 @@ const TAIL_SAMPLES: usize = 1 << 14;
 /// interval at the look that stops holds the truth with the confidence asked, as far as the mean of 16 replicates follows
 /// Student's t. [`coverage`] measures that.
 pub fn until(integral: &Integral, points: &dyn Points, target: Target, limit: u64) -> Outcome {
+    until_watched(integral, points, target, limit, &mut |_| ControlFlow::Continue(()))
+}
+
+/// The same with somebody who watches: `watch` is called with the looks so far, several times a second in long work, and may ask
+/// for the end.
+pub fn until_watched(
+    integral: &Integral,
+    points: &dyn Points,
+    target: Target,
+    limit: u64,
+    watch: &mut dyn FnMut(&[Look]) -> ControlFlow<()>,
+) -> Outcome {
     let mut warnings = Vec::new();
     let tail = tail_of(&integral.samples(&HashedPoints { seed: 0x7a11 }, 0, TAIL_SAMPLES));
     let mut sums = vec![Sums::default(); REPLICATES as usize];
     let (mut looks, mut size) = (Vec::new(), 0u64);
     let blind = integral.blind_spot();
-    let verdict = loop {
+    let verdict = 'looks: loop {
         let next = (2 * size).max(FIRST);
         if size > 0 && next.saturating_mul(REPLICATES) > limit {
             break Verdict::LimitReached;
         }
-        sums.par_iter_mut().enumerate().for_each(|(replicate, sums)| {
-            sums.merge(&integral.sums_of(points, replicate as u64, size, next - size));
-        });
-        size = next;
+        // Sums merge exactly, so that stretches change nothing.
+        while size < next {
+            if watch(&looks).is_break() && !looks.is_empty() {
+                break 'looks Verdict::Interrupted;
+            }
+            let length = STRETCH.min(next - size);
+            sums.par_iter_mut().enumerate().for_each(|(replicate, sums)| {
+                sums.merge(&integral.sums_of(points, replicate as u64, size, length));
+            });
+            size += length;
+        }
         let look = look(&sums, target, looks.len() as u32 + 1);
         looks.push(look);
         if sums.iter().any(|sums| sums.not_finite() > 0) {
@@ -186,6 +210,7 @@ pub fn until(integral: &Integral, points: &dyn Points, target: Target, limit: u6
             warnings.push(format!("the integrand was infinite or undefined at {count} points; they counted as zero"));
         }
         Verdict::LimitReached => warnings.push(format!("stopped at the limit of {limit} points, before the target")),
+        Verdict::Interrupted => warnings.push("ended before the target".to_owned()),
         Verdict::Reached | Verdict::BlindSpot => {}
     }
     let outside: u64 = sums.iter().map(Sums::outside).sum();
@@ -195,7 +220,7 @@ pub fn until(integral: &Integral, points: &dyn Points, target: Target, limit: u6
             last.samples
         ));
     }
-    let is_honest = matches!(verdict, Verdict::Reached | Verdict::LimitReached);
+    let is_honest = matches!(verdict, Verdict::Reached | Verdict::LimitReached | Verdict::Interrupted);
     Outcome {
         estimate: last.estimate,
         half_width: is_honest.then_some(last.half_width),

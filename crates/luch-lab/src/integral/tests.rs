@@ -3,6 +3,7 @@
 use super::quantile::normal_cumulative;
 use super::*;
 use luch_sampling::Sequence;
+use std::ops::ControlFlow;
 
 const INDEPENDENT: HashedPoints = HashedPoints { seed: 11 };
 
@@ -190,4 +191,27 @@ fn the_interval_holds_the_truth_as_often_as_it_says() {
         let error = (0.1 * 0.9 / one.runs as f64).sqrt();
         assert!(one.held as f64 / one.runs as f64 > 0.9 - 4.0 * error, "{one:?}");
     }
+}
+
+#[test]
+fn whoever_watches_may_end_it_and_changes_nothing_else() {
+    let integral = Integral::new("exp(x)", "x=0..1").unwrap();
+    let points = SequencePoints { sequence: Sequence::Independent, seed: 2 };
+    let target = Target::parse("rel 1e-9").unwrap();
+    let limit = 1 << 24;
+    let mut calls = 0;
+    let whole = until_watched(&integral, &points, target, limit, &mut |_| {
+        calls += 1;
+        ControlFlow::Continue(())
+    });
+    assert_eq!(whole.verdict, Verdict::LimitReached);
+    // The last doublings are watched more than once.
+    assert!(calls > whole.looks.len());
+    let ended = until_watched(&integral, &points, target, limit, &mut |looks| match looks.len() {
+        0..10 => ControlFlow::Continue(()),
+        _ => ControlFlow::Break(()),
+    });
+    assert_eq!(ended.verdict, Verdict::Interrupted);
+    assert_eq!(ended.looks, whole.looks[..10]);
+    assert_eq!(ended.half_width, Some(whole.looks[9].half_width));
 }
