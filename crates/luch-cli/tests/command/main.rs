@@ -1,6 +1,7 @@
 //! The command as people run it: in a folder of its own, judged by what it writes, says and ends with.
 
 mod bench;
+mod book;
 mod compare;
 mod errors;
 mod interrupt;
