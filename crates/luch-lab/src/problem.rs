@@ -52,11 +52,13 @@ pub struct Run {
     pub name: String,
     /// The estimate.
     pub estimate: f64,
-    /// Its standard error, from 16 independent randomisations.
+    /// Its standard error, from 16 independent randomisations; zero if it is not known.
     pub standard_error: f64,
+    /// Whether the error is known: points without chance say nothing of it.
+    pub has_error: bool,
     /// The exact answer.
     pub truth: f64,
-    /// (estimate − truth) / standard error; zero where both vanish.
+    /// (estimate − truth) / standard error; zero where both vanish, and where the error is not known.
     pub z_score: f64,
     /// Points used.
     pub samples: u64,
@@ -268,23 +270,34 @@ impl Problem {
         let distance = last.estimate - self.truth;
         // Where every sample is the same, sums of them differ from the truth by rounding only.
         let is_rounding = distance.abs() <= 1e-14 * self.truth.abs();
-        let z_score = if is_rounding { 0.0 } else { distance / last.standard_error };
+        let has_error = points.is_random();
+        let z_score = if is_rounding || !has_error { 0.0 } else { distance / last.standard_error };
         Run {
             name: self.name.clone(),
             estimate: last.estimate,
             standard_error: last.standard_error,
+            has_error,
             truth: self.truth,
             z_score,
             samples: last.samples,
-            explanation: self.explanation(&last, z_score),
+            explanation: self.explanation(&last, has_error.then_some(z_score)),
             figure: picture::of(self, points),
             progress: self.progress_figure(&rows),
             rows,
         }
     }
 
-    fn explanation(&self, last: &Progress, z_score: f64) -> String {
-        let verdict = if z_score.abs() < 3.0 { "as it should be" } else { "which chance hardly does" };
+    fn explanation(&self, last: &Progress, z_score: Option<f64>) -> String {
+        let verdict = match z_score {
+            Some(z) if z.abs() < 3.0 => format!("{z:+.2} standard errors away, as it should be"),
+            Some(z) => format!("{z:+.2} standard errors away, which chance hardly does"),
+            None => format!(
+                "off by {:+.2e}; points without chance say nothing of their error",
+                last.estimate - self.truth
+            ),
+        };
+        let error =
+            if z_score.is_some() { format!(" ± {:.2e}", last.standard_error) } else { String::new() };
         let more = match &self.kind {
             Kind::Pi => "Each point is a coin that falls into the disc with probability π/4, so independent points have the error 1.642/√N.".to_owned(),
             Kind::Triangle { .. } => "At most one angle of a triangle is obtuse, so three signs of dot products decide.".to_owned(),
@@ -302,13 +315,11 @@ impl Problem {
             Kind::Glossy { .. } => "The radius is the root of a uniform number times R: without the root the points would crowd in the middle.".to_owned(),
         };
         format!(
-            "{}: {:.8} ± {:.2e} after {} points; exact {:.8}; {:+.2} standard errors away, {verdict}. {more}",
+            "{}: {:.8}{error} after {} points; exact {:.8}; {verdict}. {more}",
             capital(&self.description),
             last.estimate,
-            last.standard_error,
             last.samples,
             self.truth,
-            z_score
         )
     }
 

@@ -93,7 +93,7 @@ pub(crate) struct IntegrateArgs {
     /// The box: x=0..1,y=-pi..pi
     #[arg(long, value_name = "DOMAIN")]
     pub(crate) over: String,
-    /// How points are drawn: uniform, normal(mean, deviation), 0.1*uniform + 0.9*normal(0,0.15), one for each axis by name …
+    /// How points are drawn: uniform, normal(mean, deviation), 0.1*uniform + 0.9*normal(0,0.15), one for each axis by name …; mixtures are mixed axis by axis
     #[arg(long, value_name = "DENSITY")]
     pub(crate) density: Option<String>,
     /// The known value, a formula too

@@ -64,6 +64,7 @@ fn table(integral: &Integral, found: &[Convergence]) -> Table {
     for one in found {
         let Some(last) = one.rows.last() else { continue };
         let (slope, interval) = match one.slope {
+            _ if !one.has_errors => ("not known".to_owned(), String::new()),
             _ if one.is_exact => ("exact".to_owned(), String::new()),
             Some(fit) => (format!("{:.2}", fit.slope), format!("{:.2} to {:.2}", fit.low, fit.high)),
             None => (String::new(), String::new()),
@@ -72,7 +73,7 @@ fn table(integral: &Integral, found: &[Convergence]) -> Table {
             one.name.clone(),
             last.samples.to_string(),
             format!("{:.9}", last.mean),
-            format!("{:.2e}", last.rmse),
+            if one.has_errors { format!("{:.2e}", last.rmse) } else { String::new() },
             slope,
             interval,
             one.equal_error_factor.map_or(String::new(), |factor| format!("{factor:.3}")),

@@ -3,7 +3,7 @@
 use super::output::{give, report};
 use crate::args::{MeasureArgs, PointsArgs, Rules};
 use crate::failure::{Failure, Outcome};
-use luch_lab::figure::{Axis, Figure, Ink, Sheet};
+use luch_lab::figure::{Axis, Figure, Ink, Raster, Sheet};
 use luch_lab::measure;
 use luch_lab::points::{PointSet, Rule};
 use luch_lab::report::Table;
@@ -97,5 +97,8 @@ fn spectrum_figure(rule: Rule, spectrum: &measure::Spectrum) -> Figure {
             spectrum.at(frequency).unwrap_or(0.0).min(3.0)
         })
         .collect();
-    Figure::unit_square(rule.name()).heat("", luch_lab::figure::Raster::unit_square(width, values))
+    let end = f64::from(highest) + 0.5;
+    let raster = Raster { low: [-end; 2], high: [end; 2], ..Raster::unit_square(width, values) };
+    let axis = || Axis::linear("waves").with_range(-end, end);
+    Figure::new(rule.name()).with_x(axis()).with_y(axis()).squared().heat("", raster)
 }

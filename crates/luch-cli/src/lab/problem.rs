@@ -56,14 +56,23 @@ pub(super) fn run(words: &[OsString]) -> Result<Outcome, Failure> {
         table = table.row([
             row.samples.to_string(),
             format!("{:.8}", row.estimate),
-            format!("{:.2e}", row.standard_error),
+            if found.has_error { format!("{:.2e}", row.standard_error) } else { String::new() },
             format!("{:+.2e}", row.estimate - found.truth),
         ]);
     }
-    let result = format!(
-        "estimate {:.9}   standard error {:.2e}   truth {:.9}   {:+.2} standard errors off",
-        found.estimate, found.standard_error, found.truth, found.z_score
-    );
+    let used = match found.samples {
+        used if used == args.samples => String::new(),
+        used => format!("   {used} samples: 16 randomisations of {} each", used / 16),
+    };
+    let error = match found.has_error {
+        true => format!("standard error {:.2e}", found.standard_error),
+        false => "no standard error: these points have no chance in them".to_owned(),
+    };
+    let off = match found.has_error {
+        true => format!("{:+.2} standard errors off", found.z_score),
+        false => format!("{:+.2e} off", found.estimate - found.truth),
+    };
+    let result = format!("estimate {:.9}   {error}   truth {:.9}   {off}{used}", found.estimate, found.truth);
     let page = report(problem.description.clone())
         .text(result)
         .table(table)

@@ -69,6 +69,7 @@ pub(super) fn density(args: &DensityArgs) -> Result<Outcome, Failure> {
     )?;
     let page = report(format!("The density {}", args.density))
         .text(format!("Samples against the density, χ²: p = {:.3}", fit.p_value))
+        .text(sheet.caption.clone())
         .sheet(sheet);
     give(&page, &args.output)
 }

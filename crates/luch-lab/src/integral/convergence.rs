@@ -42,8 +42,10 @@ pub struct Convergence {
     pub rows: Vec<Row>,
     /// The fitted exponent; `None` if fewer than two sizes have an error, or all errors are rounding.
     pub slope: Option<SlopeFit>,
-    /// Whether the error is nothing but rounding at some size.
+    /// Whether the error is nothing but rounding from some size on.
     pub is_exact: bool,
+    /// Whether errors are known at all: of points without chance they are not, unless the truth is.
+    pub has_errors: bool,
     /// Variance of one independent sample, from points of all replicates together.
     pub variance: f64,
     /// How many times more independent samples give the error of the last row; `None` if that error is zero.
@@ -101,17 +103,19 @@ pub fn convergence(
     let variance = together.variance().unwrap_or(0.0);
     // Sums of N numbers of size s are right to some N·2⁻⁵³·s at worst and much better here; below that is no error to fit.
     let floor = 1e-14 * variance.sqrt().max(together.mean().unwrap_or(0.0).abs()).max(f64::MIN_POSITIVE);
-    let is_exact = rows.iter().any(|row| row.rmse <= floor);
-    let slope = fitted(&rows, integral.truth, floor);
+    let has_errors = integral.truth.is_some() || points.is_random();
+    let is_exact = has_errors && rows.last().is_some_and(|row| row.rmse <= floor);
+    let slope = fitted(&rows, integral.truth, floor).filter(|_| has_errors && !is_exact);
     let equal_error_factor = rows
         .last()
-        .filter(|row| row.rmse > floor)
+        .filter(|row| has_errors && row.rmse > floor)
         .map(|row| variance / (row.rmse * row.rmse) / row.samples as f64);
     Convergence {
         name: name.to_owned(),
         rows,
         slope,
         is_exact,
+        has_errors,
         variance,
         equal_error_factor,
         nanoseconds_per_sample,
@@ -154,7 +158,7 @@ fn fitted(rows: &[Row], truth: Option<f64>, floor: f64) -> Option<SlopeFit> {
 pub fn convergence_figure(title: &str, measured: &[Convergence]) -> Figure {
     let mut figure =
         Figure::new(title).with_x(Axis::log2("points N")).with_y(Axis::log10("root mean square error"));
-    for (at, one) in measured.iter().enumerate() {
+    for (at, one) in measured.iter().enumerate().filter(|(_, one)| one.has_errors) {
         let points: Vec<[f64; 2]> = one.rows.iter().map(|row| [row.samples as f64, row.rmse]).collect();
         let name = match one.slope {
             Some(fit) => format!("{} ({})", one.name, format!("{:.2}", fit.slope).replace('-', "−")),

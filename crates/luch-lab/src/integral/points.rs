@@ -8,6 +8,11 @@ pub trait Points: Sync {
     /// Replicates are independent randomisations.
     fn fill(&self, replicate: u64, first: u64, dimensions: usize, out: &mut [f64]);
 
+    /// Whether replicates differ. Where they do not, their scatter says nothing of the error.
+    fn is_random(&self) -> bool {
+        true
+    }
+
     /// The source that is best for exactly this many points, if that is another one: grids and lattices are made for their size.
     fn sized(&self, _samples: u64) -> Option<Box<dyn Points>> {
         None

@@ -32,6 +32,10 @@ impl Points for RulePoints {
         whole.fill(replicate, first, dimensions, out);
     }
 
+    fn is_random(&self) -> bool {
+        self.rule.is_random()
+    }
+
     fn sized(&self, samples: u64) -> Option<Box<dyn Points>> {
         let whole = Whole { source: *self, count: samples, made: OnceLock::new() };
         self.is_sized().then(|| Box::new(whole) as Box<dyn Points>)

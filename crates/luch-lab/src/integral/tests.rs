@@ -215,3 +215,21 @@ fn whoever_watches_may_end_it_and_changes_nothing_else() {
     assert_eq!(ended.looks, whole.looks[..10]);
     assert_eq!(ended.half_width, Some(whole.looks[9].half_width));
 }
+
+#[test]
+fn points_without_chance_tell_no_error() {
+    use crate::points::Rule;
+    let integral = Integral::new("exp(x)", "x=0..1").unwrap();
+    let hammersley = RulePoints { rule: Rule::Hammersley, seed: 1 };
+    let found = convergence("hammersley", &integral, &hammersley, &[16, 64], 4);
+    assert!(
+        !found.has_errors && !found.is_exact && found.slope.is_none() && found.equal_error_factor.is_none()
+    );
+    let known = integral.with_truth("exp(1) - 1").unwrap();
+    let found = convergence("hammersley", &known, &hammersley, &[16, 64, 256], 4);
+    assert!(found.has_errors && !found.is_exact && found.slope.is_some());
+    // Cells that fit once by chance make no exact rule.
+    let step = Integral::new("if(x < 0.3, 1, 0)", "x=0..1").unwrap().with_truth("0.3").unwrap();
+    let jittered = RulePoints { rule: Rule::Jittered, seed: 1 };
+    assert!(!convergence("jittered", &step, &jittered, &[10, 64], 4).is_exact);
+}

@@ -8,6 +8,9 @@ use std::f64::consts::TAU;
 /// Points that are shown.
 const SHOWN: usize = 1000;
 
+/// Triangles of one kind that are shown.
+const TRIANGLES: usize = 12;
+
 /// The problem with its first points.
 pub(super) fn of(problem: &Problem, points: &dyn Points) -> Figure {
     let dimensions = problem.dimensions();
@@ -46,7 +49,11 @@ pub(super) fn of(problem: &Problem, points: &dyn Points) -> Figure {
                 .points("perturbations", Ink::Blue, places, 3.0)
         }
     };
-    figure.with_caption(format!("The first {SHOWN} points of the first randomisation."))
+    let shown = match &problem.kind {
+        Kind::Triangle { .. } => format!("Up to {TRIANGLES} of either kind, of the first randomisation."),
+        _ => format!("The first {SHOWN} points of the first randomisation."),
+    };
+    figure.with_caption(shown)
 }
 
 fn plane(title: &str) -> Figure {
@@ -86,7 +93,7 @@ fn triangles(problem: &Problem, domain: TriangleDomain, samples: &[&[f64]]) -> F
         Mark::Polygon { points: outline, opacity: 0.06 },
     );
     for (kind, ink, name) in [(true, Ink::Blue, "counted"), (false, Ink::Orange, "not counted")] {
-        let some = samples.iter().filter(|u| (problem.sample(u) > 0.0) == kind).take(12);
+        let some = samples.iter().filter(|u| (problem.sample(u) > 0.0) == kind).take(TRIANGLES);
         for (at, u) in some.enumerate() {
             let corners = triangle::corners(domain, u);
             let mut points: Vec<[f64; 2]> = corners.iter().map(|corner| [corner[0], corner[1]]).collect();
