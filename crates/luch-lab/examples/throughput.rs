@@ -2,8 +2,8 @@
 
 #![allow(clippy::print_stdout)]
 
-use luch_lab::integral::{HashedPoints, Integral, SequencePoints};
-use luch_sampling::Sequence;
+use luch_lab::integral::{HashedPoints, Integral, RulePoints};
+use luch_lab::points::Rule;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let cases = [
@@ -16,10 +16,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for (formula, domain) in cases {
         let integral = Integral::new(formula, domain)?;
         let count = 1u64 << 25;
-        let sobol = SequencePoints { sequence: Sequence::Sobol, seed: 1 };
+        let sobol = RulePoints { rule: Rule::SobolHashed, seed: 1 };
         let independent = HashedPoints { seed: 1 };
         let sources: [(&str, &dyn luch_lab::integral::Points); 2] =
-            [("independent", &independent), ("sobol", &sobol)];
+            [("independent", &independent), ("sobol-hashed", &sobol)];
         for (name, points) in sources {
             let start = std::time::Instant::now();
             let sums = integral.estimate(points, 0, count);

@@ -213,8 +213,8 @@ fn number(value: f64, step: f64, greatest: f64) -> String {
         let digits = if needs_half(step) { digits + 1 } else { digits };
         format!("{}×{}", trimmed(format!("{:.digits$}", value / scale)), power(10, exponent as i64))
     } else {
-        let digits = (-libm::floor(libm::log10(step) + 1e-9)).clamp(0.0, 12.0) as usize;
-        let digits = if needs_half(step) { digits + 1 } else { digits };
+        let half = if needs_half(step) { 1.0 } else { 0.0 };
+        let digits = (half - libm::floor(libm::log10(step) + 1e-9)).clamp(0.0, 12.0) as usize;
         format!("{value:.digits$}")
     };
     text.replace('-', "−")
@@ -267,6 +267,7 @@ mod tests {
     fn ticks_are_round_numbers() {
         assert_eq!(labels(0.0, 1.0, Scale::Linear), ["0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
         assert_eq!(labels(-3.0, 7.1, Scale::Linear), ["−2.5", "0", "2.5", "5.0"]);
+        assert_eq!(labels(-60.0, 50.0, Scale::Linear), ["−50", "−25", "0", "25", "50"]);
         assert_eq!(labels(0.0, 2e7, Scale::Linear), ["0", "0.5×10⁷", "1×10⁷", "1.5×10⁷", "2×10⁷"]);
         assert_eq!(labels(-3.0, 1.0, Scale::Log10), ["10⁻³", "10⁻²", "10⁻¹", "1", "10"]);
         assert_eq!(labels(-1.2, -0.2, Scale::Log10), ["0.1", "0.2", "0.5"]);
