@@ -15,7 +15,7 @@ mod mis;
 mod roulette;
 mod scan;
 
-pub use control::{ControlVariate, control_variate};
+pub use control::{ControlVariate, control_figure, control_variate};
 pub use dimensions::{DimensionRow, DimensionStudy, Rule, dimension_integral, dimensions, dimensions_figure};
 pub use mis::{Mis, MisRow, MisWeights, mis};
 pub use roulette::{TwoStages, stages_figure};
@@ -23,7 +23,7 @@ pub use scan::{Scan, ScanRow, normal_scan};
 
 use crate::figure::{Figure, Ink, Mark, Raster, Sheet};
 use crate::integral::{Density, Domain, Points, TextError};
-use luch_sampling::check::{ChiSquare, chi_square};
+use luch_sampling::check::{Area, DensityFit, FitSettings, density_fit};
 
 /// The density of lecture point 13: denser in the middle of the unit square.
 pub const CENTERED: &str = "truncated(0.5, 0.18)";
@@ -73,52 +73,24 @@ pub fn square_sheet(density: &str, points: &dyn Points, count: usize) -> Result<
     )))
 }
 
-/// The χ² test of a density over the unit square against its own samples, in 16 × 16 cells and one for what falls outside.
+/// The χ² test of a density over the unit square against its own samples; what falls outside the square is a cell of its own.
 ///
 /// # Errors
 ///
 /// The text is no density of the square's axes `x` and `y`.
-pub fn square_fit(density: &str, points: &dyn Points, count: u64) -> Result<ChiSquare, TextError> {
-    const SIDE: usize = 16;
-    const FINE: usize = 16;
+pub fn square_fit(density: &str, settings: FitSettings) -> Result<DensityFit, TextError> {
     let domain = Domain::parse("x=0..1,y=0..1")?;
     let density = Density::parse(density, &domain)?;
-    let count = count.min(1 << 26);
-    let middle = |at: usize| (at as f64 + 0.5) / (SIDE * FINE) as f64;
-    let mut expected = vec![0.0; SIDE * SIDE + 1];
-    for row in 0..SIDE * FINE {
-        for column in 0..SIDE * FINE {
-            let pdf = density.pdf(&[middle(column), middle(row)], &domain);
-            expected[row / FINE * SIDE + column / FINE] +=
-                pdf * count as f64 / (SIDE * FINE * SIDE * FINE) as f64;
-        }
-    }
-    let inside: f64 = expected.iter().sum();
-    expected[SIDE * SIDE] = (count as f64 - inside).max(0.0);
-    let mut observed = vec![0u64; SIDE * SIDE + 1];
-    let mut uniform = vec![0.0; 2 * 4096];
-    for first in (0..count).step_by(4096) {
-        let length = (count - first).min(4096) as usize;
-        points.fill(0, first, 2, &mut uniform[..2 * length]);
-        for u in uniform[..2 * length].chunks(2) {
-            let mut place = [0.0; 2];
-            density.draw(u, &domain, &mut place);
-            let cell = |x: f64| ((x * SIDE as f64) as usize).min(SIDE - 1);
-            let at =
-                if domain.contains(&place) { cell(place[1]) * SIDE + cell(place[0]) } else { SIDE * SIDE };
-            observed[at] += 1;
-        }
-    }
-    // What the midpoint rule leaves over is no room for samples outside unless the density reaches there.
-    if observed[SIDE * SIDE] == 0 {
-        expected.pop();
-        observed.pop();
-    }
-    Ok(chi_square(&observed, &expected))
+    let draw = |u: [f32; 4]| {
+        let mut place = [0.0; 2];
+        density.draw(&[f64::from(u[0]), f64::from(u[1])], &domain, &mut place);
+        Some(place)
+    };
+    Ok(density_fit(Area::UNIT_SQUARE, settings, draw, |place| density.pdf(&place, &domain)))
 }
 
 /// The integral of a function over a range by Gauss and Legendre, five points in each of `cells` cells.
-fn quadrature(low: f64, high: f64, cells: u32, function: impl Fn(f64) -> f64) -> f64 {
+pub(crate) fn quadrature(low: f64, high: f64, cells: u32, function: impl Fn(f64) -> f64) -> f64 {
     // Abramowitz and Stegun, table 25.4.
     const NODES: [[f64; 2]; 5] = [
         [0.0, 0.568_888_888_888_888_9],

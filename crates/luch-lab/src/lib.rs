@@ -10,6 +10,9 @@
 //! | What is Monte Carlo first tried on? | [`problem`]: problems with known answers |
 //! | What does a density do? | [`density`]: pictures, weights, widths, several at once |
 //! | Why is this pixel as it is? | [`explain`]: its paths, by depth, lamp and technique |
+//! | What does one point in each cell leave of the variance? | [`strata`] |
+//! | Which lamps of a scene does a point see, and how much light comes from them? | [`direct_light`] |
+//! | Does a routine draw what its density says? | [`chi_squared`]: all of the renderer's |
 //! | How does it look? | [`figure`]: SVG, PNG, terminal, CSV, JSON; [`report`]: a page of HTML |
 //!
 //! The area of a disc by scrambled Sobol' points, and how even they are beside independent ones:
@@ -29,8 +32,10 @@
 //!
 //! Everything is a function of its arguments and the same on every machine and any number of threads.
 
+pub mod chi_squared;
 pub mod density;
 pub mod explain;
+pub mod direct_light;
 pub mod figure;
 pub mod generator;
 pub mod integral;
@@ -39,6 +44,7 @@ pub mod points;
 pub mod problem;
 pub mod report;
 pub mod slopes;
+pub mod strata;
 
 /// The README's example, run as a test.
 #[cfg(doctest)]

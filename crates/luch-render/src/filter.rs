@@ -9,9 +9,9 @@ use std::f64::consts::PI;
 /// Cells of the tables of filters without a closed inverse.
 const CELLS: usize = 1024;
 
-/// A filter that can be sampled.
+/// A filter that can be sampled: offsets are drawn with the filter, divided by its integral, as their density.
 #[derive(Debug)]
-pub(crate) struct FilterSampler {
+pub struct FilterSampler {
     kind: Kind,
 }
 
@@ -23,7 +23,8 @@ enum Kind {
 }
 
 impl FilterSampler {
-    pub(crate) fn new(filter: Filter) -> Self {
+    /// The sampler of a filter; those without a closed inverse are tabulated in 1024 cells.
+    pub fn new(filter: Filter) -> Self {
         let kind = match filter {
             Filter::Box { radius } => Kind::Box { radius },
             Filter::Tent { radius } => Kind::Tent { radius },
@@ -36,8 +37,8 @@ impl FilterSampler {
         Self { kind }
     }
 
-    /// Offset from the pixel's centre along one axis, in pixels.
-    pub(crate) fn offset(&self, u: f32) -> f32 {
+    /// Offset from the pixel's centre along one axis, in pixels; `u` in [0, 1).
+    pub fn offset(&self, u: f32) -> f32 {
         match &self.kind {
             Kind::Box { radius } => (2.0 * u - 1.0) * radius,
             Kind::Tent { radius } => tent(u, *radius),

@@ -64,6 +64,7 @@ pub use checkpoint::{Checkpoint, CheckpointError, Provenance};
 pub use cone::Cone;
 pub use emitter::{EmitterSample, FlatForm, FlatLamp};
 pub use film::{BUNDLE, Coverage, ErrorEstimate, Film, Losses, MeanEstimate, PixelEstimate, TILE, Tile};
+pub use filter::FilterSampler;
 pub use fingerprint::Fingerprint;
 pub use geometry::Geometry;
 pub use integrator::{AskedLamp, Departure, FollowedPath, FoundOnPath, MetSurface, PathEnd, PathVertex};

@@ -3,17 +3,22 @@
 //! Each returns the statistic and a probability, never a verdict: the caller chooses the level. With T tests at an overall
 //! level α compare each with [`sidak`]`(α, T)`.
 
+mod bins;
 mod chi_square;
+mod cubature;
+mod density_fit;
 mod discrepancy;
-mod match_pdf;
 mod net;
 mod slope;
 mod special;
 mod uniformity;
 
 pub use chi_square::{ChiSquare, chi_square};
+pub use density_fit::{
+    Area, DensityFit, DensityGrid, FitSettings, SphereMap, density_fit, density_grid, directions_match_pdf,
+    square_matches_pdf,
+};
 pub use discrepancy::l2_star_discrepancy;
-pub use match_pdf::{DirectionFit, directions_match_pdf, square_matches_pdf};
 pub use net::{CrowdedBox, crowded_box};
 pub use slope::{Slope, fit_slope};
 pub use special::{

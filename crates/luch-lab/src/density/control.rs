@@ -1,5 +1,6 @@
 //! Control variates: take away something similar whose integral is known.
 
+use crate::figure::{Axis, Figure, Ink};
 use crate::integral::{Integral, Points};
 use serde::Serialize;
 
@@ -58,6 +59,28 @@ pub fn control_variate(
         estimate: rest.mean()?,
         standard_error: rest.standard_error()?,
     })
+}
+
+/// Integrand, control, and what is left of the integrand when the control is taken away. `None` but for one dimension with finite ends.
+pub fn control_figure(f: &Integral, g: &Integral, found: &ControlVariate) -> Option<Figure> {
+    let [side] = f.domain.sides() else { return None };
+    let known = g.truth?;
+    if !side.length().is_finite() {
+        return None;
+    }
+    let xs: Vec<f64> = (0..=400).map(|i| side.low + side.length() * f64::from(i) / 400.0).collect();
+    let mean = known / side.length();
+    let curve = |of: &dyn Fn(f64) -> f64| xs.iter().map(|&x| [x, of(x)]).collect::<Vec<_>>();
+    let left = |x: f64| f.value(&[x]) - found.factor * (g.value(&[x]) - mean);
+    Some(
+        Figure::new("A control variate takes away what is known")
+            .with_caption("What is left has the integral of the integrand; the flatter it is, the less error has its mean.")
+            .with_x(Axis::linear(&*side.name))
+            .with_y(Axis::linear(""))
+            .line("integrand", Ink::Text, curve(&|x| f.value(&[x])))
+            .dashed("control", Ink::Blue, curve(&|x| g.value(&[x])))
+            .line("what is left", Ink::Vermilion, curve(&left)),
+    )
 }
 
 fn mean(values: &[f64]) -> f64 {
