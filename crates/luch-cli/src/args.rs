@@ -9,8 +9,9 @@ mod render;
 
 pub(crate) use bench::{BenchArgs, BenchVerb, CameraArgs, Choice, RaysArgs};
 pub(crate) use lab::{
-    DensityArgs, DimensionsArgs, ExplainArgs, IntegrateArgs, LabArgs, LabOutputArgs, LabVerb, LectureArgs,
-    MeasureArgs, PointsArgs, PrngArgs, ProblemArgs, Rules, SlopesArgs,
+    Chi2Args, ControlArgs, DensityArgs, DimensionsArgs, ExplainArgs, IntegrateArgs, LabArgs, LabOutputArgs,
+    LabVerb, LampArgs, LectureArgs, MeasureArgs, MisArgs, PointsArgs, PrngArgs, ProblemArgs, RouletteArgs,
+    Rules, SlopesArgs, StrataArgs, WidthArgs,
 };
 pub(crate) use mesh::{
     CompareMeshesArgs, ConvertArgs, InfoArgs, MeshArgs, MeshOutputArgs, QueryArgs, RunArgs, SampleArgs,

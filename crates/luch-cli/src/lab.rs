@@ -1,14 +1,18 @@
 //! `luch lab`: Monte Carlo made visible.
 
+mod chi2;
 mod explain;
 mod integrate;
+mod lamp;
 mod lecture;
 mod live;
 mod output;
 mod points;
 mod prng;
 mod problem;
+mod saving;
 mod study;
+mod ticker;
 
 use crate::args::{LabArgs, LabVerb};
 use crate::failure::{Failure, Outcome};
@@ -16,6 +20,7 @@ use crate::failure::{Failure, Outcome};
 pub(crate) fn run(args: &LabArgs) -> Result<Outcome, Failure> {
     match &args.verb {
         LabVerb::Problems(_) => problem::list(),
+        LabVerb::Problem(words) if lamp::is_meant(words) => lamp::run(words),
         LabVerb::Problem(words) => problem::run(words),
         LabVerb::Integrate(args) => integrate::run(args),
         LabVerb::Points(args) => points::show(args),
@@ -25,6 +30,12 @@ pub(crate) fn run(args: &LabArgs) -> Result<Outcome, Failure> {
         LabVerb::Dimensions(args) => study::dimensions(args),
         LabVerb::Prng(args) => prng::run(args),
         LabVerb::Explain(args) => explain::run(args),
+        LabVerb::Chi2(args) => chi2::run(args),
+        LabVerb::Mis(args) => saving::mis(args),
+        LabVerb::Control(args) => saving::control(args),
+        LabVerb::Roulette(args) => saving::roulette(args),
+        LabVerb::Width(args) => saving::width(args),
+        LabVerb::Strata(args) => saving::strata(args),
         LabVerb::Lecture(args) => lecture::run(args),
     }
 }

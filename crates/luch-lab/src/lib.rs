@@ -34,8 +34,8 @@
 
 pub mod chi_squared;
 pub mod density;
-pub mod explain;
 pub mod direct_light;
+pub mod explain;
 pub mod figure;
 pub mod generator;
 pub mod integral;

@@ -3,6 +3,13 @@
 mod explain;
 
 pub(crate) use explain::ExplainArgs;
+mod chi2;
+mod lamp;
+mod saving;
+
+pub(crate) use chi2::Chi2Args;
+pub(crate) use lamp::LampArgs;
+pub(crate) use saving::{ControlArgs, MisArgs, RouletteArgs, StrataArgs, WidthArgs};
 
 use crate::parse;
 use clap::{Args, Subcommand};
@@ -39,6 +46,12 @@ pub(crate) enum LabVerb {
     Density(DensityArgs),
     Dimensions(DimensionsArgs),
     Explain(ExplainArgs),
+    Chi2(Chi2Args),
+    Mis(MisArgs),
+    Control(ControlArgs),
+    Roulette(RouletteArgs),
+    Width(WidthArgs),
+    Strata(StrataArgs),
     Lecture(LectureArgs),
     /// A problem by its name.
     #[command(external_subcommand)]
@@ -64,6 +77,8 @@ pub(crate) struct LabOutputArgs {
 pub(crate) struct ProblemsArgs {}
 
 /// A problem with a known answer: estimate, error, truth
+///
+/// `luch lab lamp --scene FILE --at X,Y,Z` asks which lamps a point of any scene sees.
 #[derive(clap::Parser, Debug)]
 #[command(no_binary_name = true, bin_name = "luch lab")]
 pub(crate) struct ProblemArgs {

@@ -36,6 +36,12 @@ pub(super) fn run(words: &[OsString]) -> Result<Outcome, Failure> {
             "density",
             "dimensions",
             "explain",
+            "chi2",
+            "mis",
+            "control",
+            "roulette",
+            "width",
+            "strata",
             "lecture",
         ];
         let known = Problem::NAMES.iter().copied().chain(verbs);

@@ -4,6 +4,7 @@ use super::live::Live;
 use super::output::{give, report};
 use crate::args::{DensityArgs, DimensionsArgs, SlopesArgs};
 use crate::failure::{Failure, Outcome};
+use luch::sampling::check::FitSettings;
 use luch_lab::density;
 use luch_lab::figure::{Axis, Figure, Ink, Marker, Sheet};
 use luch_lab::integral::RulePoints;
@@ -62,13 +63,10 @@ pub(super) fn density(args: &DensityArgs) -> Result<Outcome, Failure> {
     args.sampler.accepts(count, 2)?;
     let points = RulePoints { rule: args.sampler, seed: args.seed };
     let sheet = density::square_sheet(&args.density, &points, count as usize)?;
-    let fit = density::square_fit(
-        &args.density,
-        &RulePoints { rule: Rule::from_name("independent").unwrap_or(Rule::SobolHashed), seed: args.seed },
-        1 << 18,
-    )?;
+    let settings = FitSettings { samples: 1 << 18, seed: args.seed, ..FitSettings::default() };
+    let fit = density::square_fit(&args.density, settings)?;
     let page = report(format!("The density {}", args.density))
-        .text(format!("Samples against the density, χ²: p = {:.3}", fit.p_value))
+        .text(format!("Samples against the density, χ²: p = {:.3}", fit.chi_square.p_value))
         .text(sheet.caption.clone())
         .sheet(sheet);
     give(&page, &args.output)

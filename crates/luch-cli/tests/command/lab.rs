@@ -107,3 +107,93 @@ fn pixels_are_explained() {
     let other = place.fails("lab explain scene.kdl --pixel 3,4 --integrator normal", 2).err;
     assert!(other.contains("`path`"), "{other}");
 }
+
+#[test]
+fn routines_are_held_against_their_densities() {
+    let place = Workplace::empty();
+    let page = json(&place, "lab chi2 camera warp table sphere");
+    let found = rows(&page);
+    assert!(found.len() > 25 && found.iter().all(|row| row[9] == "agrees"), "{found:?}");
+    place.done("lab chi2 cone:3 --samples 20000 -o cone.png -o cone.csv");
+    assert!(place.path("cone.png").exists() && place.path("cone.csv").exists());
+    let wrong = place.run("lab chi2 planted");
+    assert_eq!(wrong.code, Some(1), "{}", wrong.out);
+    assert!(wrong.out.contains("3 of 3 REJECTED"), "{}", wrong.out);
+    assert!(place.fails("lab chi2 conducter", 2).err.contains("did you mean `conductor`"));
+    assert!(place.fails("lab chi2 cone:33", 2).err.contains("did you mean `cone:"));
+    place.fails("lab chi2 cone --samples 10", 2);
+    place.fails("lab chi2 cone --alpha 2", 2);
+}
+
+#[test]
+fn ways_to_save_samples_are_compared() {
+    let place = Workplace::empty();
+    let number = |text: &str| -> f64 { text.split(' ').next().unwrap().parse().unwrap() };
+    // Ground truth: the best width for cos⁷⁷, and 0.08 against 0.15.
+    let widths = rows(&json(&place, "lab width"));
+    let best = widths.iter().find(|row| row[0].contains("best")).unwrap();
+    assert!((number(&best[0]) - 0.113_231).abs() < 1e-6, "{best:?}");
+    let at = |width: &str| number(&widths.iter().find(|row| row[0] == width).unwrap()[1]);
+    assert!((at("0.08") / at("0.15") - 14.816).abs() < 0.01);
+    let weights = rows(&json(&place, "lab mis"));
+    let variance = |name: &str| number(&weights.iter().find(|row| row[0] == name).unwrap()[1]);
+    assert!(variance("optimal") <= variance("balance") && variance("balance") < variance("second alone"));
+    assert!(place.done("lab control").out.contains("times less variance"));
+    assert!(place.done("lab roulette").out.contains("cheap and uncertain: best"));
+    let strata = rows(&json(&place, "lab strata --repetitions 1000"));
+    assert!(strata.iter().all(|row| number(&row[5]).abs() < 4.0), "{strata:?}");
+    for (line, code, says) in [
+        ("lab width --from 2", 2, "not below"),
+        ("lab width --mean x", 2, "no number"),
+        ("lab mis x --over x=0..1,y=0..1", 2, "one dimension"),
+        ("lab mis x --first rubbish", 1, "rubbish"),
+        ("lab control exp(x) --samples 50", 2, "at least 100"),
+        ("lab roulette --cost 1,0", 2, "above 0"),
+        ("lab roulette --direct 1,-1", 2, "no mean and variance"),
+        ("lab strata --repetitions 3", 2, "from 100"),
+        ("lab strat", 2, "did you mean `strata`"),
+    ] {
+        let said = place.fails(line, code);
+        assert!(said.err.contains(says), "{line}: {}", said.err);
+    }
+}
+
+/// A lamp of 2 × 1 metres at height 3 behind a half-plane at height 1.
+const HALF_HIDDEN: &str = r#"luch 1
+camera { from 0 1 4; to 0 0 0 }
+material "dark" { absorber }
+material "lamp" { emission 2 2 2 }
+object "panel" material="lamp" { mesh { plane size=1 }; rotate-x 180; scale 2 1 1; translate 0 3 0 }
+object "edge" material="dark" { mesh { plane size=1 }; scale 2000 1 4000; translate -1000 1 0 }
+"#;
+
+#[test]
+fn a_point_of_a_scene_sees_its_lamps() {
+    let place = Workplace::new();
+    place.write("half.kdl", HALF_HIDDEN);
+    // Ground truth 4.4 (a): visible fraction and form factor.
+    for (p, fraction, factor) in [("-0.25", 0.25, 0.014_066_780), ("0.2", 0.7, 0.046_860_819)] {
+        let found = rows(&json(&place, &format!("lab lamp --scene half.kdl --at {p},0,0")));
+        let number = |at: usize| found[0][at].parse::<f64>().unwrap();
+        assert_eq!((found.len(), found[0][0].as_str()), (1, "panel"));
+        assert!((number(3) - fraction).abs() <= 4.0 * number(4) + 1e-6, "{found:?}");
+        let truth = 2.0 * std::f64::consts::PI * factor;
+        assert!((number(5) - truth).abs() <= 4.0 * number(6) + 1e-5 * truth, "{found:?}");
+        assert!(number(6) < 0.01 * truth, "{found:?}");
+    }
+    let all = place.done("lab lamp --scene scene.kdl --at 0.1,0,0.3 --samples 4096").out;
+    assert!(all.contains("lamp") && all.contains("sky") && all.contains("total irradiance"), "{all}");
+    let one = place.done("lab lamp --scene scene.kdl --at 0.1,0,0.3 --light sky --samples 4096").out;
+    assert!(one.contains("sky") && !one.contains("surface "), "{one}");
+    place.write(
+        "dark.kdl",
+        "luch 1\nmaterial \"m\" { diffuse 0.5 }\nobject material=\"m\" { sphere radius=1 }\n",
+    );
+    assert!(place.fails("lab lamp --scene dark.kdl --at 0,0,0", 1).err.contains("no lamp"));
+    let far = place.fails("lab lamp --scene scene.kdl --at 0,0,0 --light lmp", 2);
+    assert!(far.err.contains("did you mean `lamp`"), "{}", far.err);
+    for line in ["--at 1,2", "--at 0,0,0 --normal 0,0,0", "--at 0,nan,0", "--at 0,0,0 --sampler jittered"] {
+        place.fails(&format!("lab lamp --scene scene.kdl {line}"), 2);
+    }
+    place.fails("lab lamp --scene none.kdl --at 0,0,0", 1);
+}
