@@ -11,7 +11,7 @@ pub(crate) use bench::{BenchArgs, BenchVerb, CameraArgs, Choice, RaysArgs};
 pub(crate) use lab::{
     Chi2Args, ControlArgs, DensityArgs, DimensionsArgs, ExplainArgs, IntegrateArgs, LabArgs, LabOutputArgs,
     LabVerb, LampArgs, LectureArgs, MeasureArgs, MisArgs, PointsArgs, PrngArgs, ProblemArgs, RouletteArgs,
-    Rules, SlopesArgs, StrataArgs, WidthArgs,
+    Rules, SlopesArgs, StrataArgs, TruthArgs, WidthArgs,
 };
 pub(crate) use mesh::{
     CompareMeshesArgs, ConvertArgs, InfoArgs, MeshArgs, MeshOutputArgs, QueryArgs, RunArgs, SampleArgs,

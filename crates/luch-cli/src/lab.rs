@@ -13,6 +13,7 @@ mod problem;
 mod saving;
 mod study;
 mod ticker;
+mod truth;
 
 use crate::args::{LabArgs, LabVerb};
 use crate::failure::{Failure, Outcome};
@@ -36,6 +37,7 @@ pub(crate) fn run(args: &LabArgs) -> Result<Outcome, Failure> {
         LabVerb::Roulette(args) => saving::roulette(args),
         LabVerb::Width(args) => saving::width(args),
         LabVerb::Strata(args) => saving::strata(args),
+        LabVerb::Truth(args) => truth::run(args),
         LabVerb::Lecture(args) => lecture::run(args),
     }
 }

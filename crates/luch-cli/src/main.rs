@@ -3,7 +3,7 @@
 //! | exit status | meaning |
 //! |---|---|
 //! | 0 | done; `reproduce`: equal; `compare`: within the limits; `bench`: all answers the same |
-//! | 1 | failed; `reproduce`: different; `compare`: a limit is exceeded; `check`: cannot be rendered; `bench`: answers differ |
+//! | 1 | failed; `reproduce`: different; `compare`: a limit is exceeded; `check`: cannot be rendered; `bench`: answers differ; `lab truth`: rejected |
 //! | 2 | the command line cannot be understood |
 //! | 130 | stopped by Ctrl-C or a request to end; what was rendered is saved |
 

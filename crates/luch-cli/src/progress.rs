@@ -149,7 +149,8 @@ impl Reporter {
     }
 }
 
-fn bar(share: f64) -> String {
+/// Twelve cells, filled from the left.
+pub(crate) fn bar(share: f64) -> String {
     const LEVELS: [char; 8] = [' ', '▏', '▎', '▍', '▌', '▋', '▊', '▉'];
     let eighths = (share * (CELLS * 8) as f64) as usize;
     let mut cells: String = "█".repeat(eighths / 8);

@@ -13,6 +13,7 @@
 //! | What does one point in each cell leave of the variance? | [`strata`] |
 //! | Which lamps of a scene does a point see, and how much light comes from them? | [`direct_light`] |
 //! | Does a routine draw what its density says? | [`chi_squared`]: all of the renderer's |
+//! | Does the renderer find radiance that is known? | [`truth`]: scenes with closed forms, judged |
 //! | How does it look? | [`figure`]: SVG, PNG, terminal, CSV, JSON; [`report`]: a page of HTML |
 //!
 //! The area of a disc by scrambled Sobol' points, and how even they are beside independent ones:
@@ -45,6 +46,7 @@ pub mod problem;
 pub mod report;
 pub mod slopes;
 pub mod strata;
+pub mod truth;
 
 /// The README's example, run as a test.
 #[cfg(doctest)]

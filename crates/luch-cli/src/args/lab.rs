@@ -10,6 +10,9 @@ mod saving;
 pub(crate) use chi2::Chi2Args;
 pub(crate) use lamp::LampArgs;
 pub(crate) use saving::{ControlArgs, MisArgs, RouletteArgs, StrataArgs, WidthArgs};
+mod truth;
+
+pub(crate) use truth::TruthArgs;
 
 use crate::parse;
 use clap::{Args, Subcommand};
@@ -52,6 +55,7 @@ pub(crate) enum LabVerb {
     Roulette(RouletteArgs),
     Width(WidthArgs),
     Strata(StrataArgs),
+    Truth(TruthArgs),
     Lecture(LectureArgs),
     /// A problem by its name.
     #[command(external_subcommand)]

@@ -18,6 +18,23 @@ pub(super) fn report(title: impl Into<String>) -> Report {
     Report::new(title).with_command(command_line(std::iter::once("luch".to_owned()).chain(words)))
 }
 
+/// Refuses files that no page can be written to, before the work is done.
+pub(super) fn check(args: &LabOutputArgs) -> Result<(), Failure> {
+    args.output.iter().try_for_each(|path| format_of(path).map(drop))
+}
+
+/// The extension of a file, if it is one of ours.
+fn format_of(path: &Path) -> Result<String, Failure> {
+    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
+    if ["svg", "png", "csv", "json", "html"].contains(&extension.as_str()) {
+        return Ok(extension);
+    }
+    Err(Failure::usage(format!(
+        "{}: cannot tell the format from the extension; accepted are .svg, .png, .csv, .json, .html",
+        path.display()
+    )))
+}
+
 /// Prints a page, or writes it to the files that were asked for.
 pub(super) fn give(report: &Report, args: &LabOutputArgs) -> Result<Outcome, Failure> {
     if args.json {
@@ -39,18 +56,11 @@ pub(super) fn give(report: &Report, args: &LabOutputArgs) -> Result<Outcome, Fai
 
 /// The files of a page: one, or one for each figure.
 fn write(report: &Report, path: &Path, args: &LabOutputArgs) -> Result<Vec<PathBuf>, Failure> {
-    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
+    let extension = format_of(path)?;
     let whole = match extension.as_str() {
         "html" => Some(report.to_html()),
         "json" => Some(report.to_json()),
-        "svg" | "png" | "csv" => None,
-        _ => {
-            let message = format!(
-                "{}: cannot tell the format from the extension; accepted are .svg, .png, .csv, .json, .html",
-                path.display()
-            );
-            return Err(Failure::usage(message));
-        }
+        _ => None,
     };
     if let Some(text) = whole {
         write_atomically(path, text.as_bytes())?;

@@ -92,3 +92,16 @@ fn an_interrupted_integral_gives_what_it_has() {
     assert_eq!(said.code, Some(130), "{}{}", said.out, said.err);
     assert!(said.out.contains("interrupted") && said.out.contains("±"), "{}", said.out);
 }
+
+#[test]
+fn judging_ends_when_asked_and_tells_what_was_judged() {
+    let place = Workplace::empty();
+    let child = place.start("lab truth --sampler all --error 0.05%");
+    std::thread::sleep(Duration::from_millis(700));
+    let asked = Instant::now();
+    signal(&child, "INT");
+    let said = Said::of(child.wait_with_output().unwrap());
+    assert_eq!(said.code, Some(130), "{}", said.err);
+    assert!(said.err.contains("interrupted") && said.err.contains("rows were judged"), "{}", said.err);
+    assert!(asked.elapsed() < Duration::from_secs(10), "{:?}", asked.elapsed());
+}

@@ -197,3 +197,27 @@ fn a_point_of_a_scene_sees_its_lamps() {
     }
     place.fails("lab lamp --scene none.kdl --at 0,0,0", 1);
 }
+
+#[test]
+fn the_renderer_finds_what_is_known() {
+    let place = Workplace::empty();
+    let said = place.done("lab truth F11 f2 --integrator path,plain -o t.html -o t.json -o t.csv");
+    assert!(said.out.contains("ACCEPTED") && said.out.contains("beside a wall"), "{}", said.out);
+    assert!(place.files().len() >= 3);
+    let page = json(&place, "lab truth color --sampler all --error 2% --seed 3");
+    let sections = page["sections"].as_array().unwrap();
+    let tables: Vec<&Value> = sections.iter().filter_map(|section| section.get("table")).collect();
+    let rows: Vec<Vec<String>> = serde_json::from_value(tables[1]["rows"].clone()).unwrap();
+    assert_eq!(rows.len(), 3 * 3 * 4);
+    for row in rows {
+        assert!(row[7].parse::<f64>().unwrap().abs() < 5.0, "{row:?}");
+    }
+    assert!(place.done("lab truth --list").out.contains("F15"));
+    assert!(place.fails("lab truth glosy", 2).err.contains("did you mean `glossy`"));
+    assert!(place.fails("lab truth F9", 2).err.contains("needs fog"));
+    assert!(place.fails("lab truth --integrator occlusion F1", 2).err.contains("no case"));
+    assert!(place.fails("lab truth -o t.bmp", 2).err.contains(".svg, .png, .csv, .json, .html"));
+    for wrong in ["--alpha 0", "--error 0", "--error 90%", "--sampler sobbol", "--integrator pth"] {
+        place.fails(&format!("lab truth F11 {wrong}"), 2);
+    }
+}

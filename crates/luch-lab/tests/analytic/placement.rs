@@ -1,12 +1,14 @@
 //! An instance is the same as its mesh put into the world by hand.
 
-use super::measure::{pixels_over_seeds, settings};
-use super::stage::{floor, gray, lamp, put, surround, world};
+use super::world;
 use glam::{Affine3A, EulerRot, Mat3, Quat, Vec3};
-use luch::mesh::{TriangleMesh, generate};
-use luch::prelude::*;
-use luch::sampling::Sequence;
-use luch::scene::{Integrator as Name, Reflectance, Surface};
+use luch_image::Rgb;
+use luch_lab::truth::measure::{pixels_over_seeds, settings};
+use luch_lab::truth::stage::{floor, gray, lamp, put, surround};
+use luch_mesh::{TriangleMesh, generate};
+use luch_render::World;
+use luch_sampling::{Estimate, Sequence};
+use luch_scene::{Camera, Integrator as Name, Material, Reflectance, Scene, Shape, Surface};
 
 /// Turned, moved, stretched; `mirrored` turns it inside out as well.
 fn placement(mirrored: bool) -> Affine3A {
@@ -44,7 +46,7 @@ fn expect_alike(what: &str, one: &World, other: &World) {
     const SEEDS: u64 = 24;
     let camera = Camera::looking_at(Vec3::new(0.5, 2.5, 4.0), Vec3::new(0.2, 0.9, -0.3), Vec3::Y, 0.6);
     let film = |world: &World, sequence: Sequence, way: Name| {
-        pixels_over_seeds(world, &camera, &settings(6, 6, sequence, 0), way, 48, SEEDS)
+        pixels_over_seeds(world, &camera, &settings(6, 6, sequence, 0), way, 48, SEEDS).unwrap()
     };
     let way = Name::Path { max_depth: 4 };
     // Different sequences, so that the two are independent.
@@ -52,7 +54,7 @@ fn expect_alike(what: &str, one: &World, other: &World) {
     let (mut total, mut variance, mut light) = (0.0, 0.0, 0.0);
     for (i, (a, b)) in a.iter().zip(&b).enumerate() {
         let off = a.mean().unwrap() - b.mean().unwrap();
-        let square = |e: &luch::sampling::Estimate| e.standard_error().unwrap() * e.standard_error().unwrap();
+        let square = |e: &Estimate| e.standard_error().unwrap() * e.standard_error().unwrap();
         let squared = square(a) + square(b);
         assert!(
             off.abs() <= 4.0 * squared.sqrt() + 1e-5,

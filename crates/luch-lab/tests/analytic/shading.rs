@@ -1,18 +1,19 @@
 //! Shading normals change shades, never shapes: silhouettes, closed rooms, the edge of the shadow.
 
-use super::measure::{DIRECT, PATH, PLAIN, render, settings};
-use super::stage::{gray, put, surround, world};
+use super::{render, world};
 use glam::{Affine3A, Vec2, Vec3, Vec3Swizzles};
-use luch::bvh::Ray;
-use luch::image::{Bitmap, Encoding, Pixels};
-use luch::mesh::normals::{Weight, smooth};
-use luch::mesh::{TriangleMesh, generate};
-use luch::prelude::*;
-use luch::render::SurfacePoint;
-use luch::sampling::Sequence;
-use luch::scene::{
-    Id, Integrator as Name, Light, NormalMap, Normals, Property, Settings, Texture, TextureFilter,
-    TextureUse, Wrap,
+use luch_bvh::Ray;
+use luch_image::{Bitmap, Encoding, Pixels, Rgb};
+use luch_lab::truth::Way;
+use luch_lab::truth::measure::settings;
+use luch_lab::truth::stage::{gray, lamp, put, surround};
+use luch_mesh::normals::{Weight, smooth};
+use luch_mesh::{TriangleMesh, generate};
+use luch_render::SurfacePoint;
+use luch_sampling::Sequence;
+use luch_scene::{
+    Camera, Id, Integrator as Name, Light, NormalMap, Normals, Property, Scene, Settings, Shape, Texture,
+    TextureFilter, TextureUse, Wrap,
 };
 
 fn smoothed(mut mesh: TriangleMesh) -> TriangleMesh {
@@ -48,7 +49,7 @@ fn flat_and_interpolated_normals_differ_in_shade_and_agree_in_outline() {
 fn wild_map(scene: &mut Scene) -> NormalMap {
     let mut state = 1u64;
     let mut byte = || {
-        state = luch::sampling::hash::mix64(state);
+        state = luch_sampling::hash::mix64(state);
         (state >> 40) as u8
     };
     let pixels = (0..64).map(|_| [byte(), byte(), 128 + byte() / 2, 255]).collect();
@@ -91,18 +92,17 @@ fn no_light_leaks_into_a_closed_room() {
                 angular_radius: 0.01,
             });
             scene.lights.push(Light::Point { position: Vec3::new(1.5, 1.2, 1.1), intensity: irradiance });
-            let lamp = super::stage::lamp(100.0);
             put(
                 &mut scene,
                 Shape::Sphere { radius: 0.5 },
-                lamp,
+                lamp(100.0),
                 Affine3A::from_translation(Vec3::new(-1.7, 1.2, 0.9)),
             );
             let world = world(scene);
             // Toward a corner, an edge and a face.
             for target in [Vec3::ONE, Vec3::new(-1.0, 1.0, 0.1), Vec3::new(0.2, -1.0, 0.3)] {
                 let camera = Camera::looking_at(Vec3::new(0.05, -0.2, 0.07), target, Vec3::X, 1.5);
-                for way in [PATH, PLAIN, DIRECT] {
+                for way in [Way::PATH, Way::PLAIN, Way::DIRECT] {
                     for pixel in render(&world, &camera, &settings(8, 8, Sequence::Sobol, 6), way, 64) {
                         assert_eq!(pixel.mean, [0.0; 3], "{name}, mapped: {mapped}, {way:?} toward {target}");
                     }
