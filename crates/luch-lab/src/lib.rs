@@ -14,6 +14,7 @@
 //! | Which lamps of a scene does a point see, and how much light comes from them? | [`direct_light`] |
 //! | Does a routine draw what its density says? | [`chi_squared`]: all of the renderer's |
 //! | Does the renderer find radiance that is known? | [`truth`]: scenes with closed forms, judged |
+//! | How far are two pictures apart for those who look? | [`flip`] |
 //! | How does it look? | [`figure`]: SVG, PNG, terminal, CSV, JSON; [`report`]: a page of HTML |
 //!
 //! The area of a disc by scrambled Sobol' points, and how even they are beside independent ones:
@@ -38,6 +39,7 @@ pub mod density;
 pub mod direct_light;
 pub mod explain;
 pub mod figure;
+pub mod flip;
 pub mod generator;
 pub mod integral;
 pub mod measure;
