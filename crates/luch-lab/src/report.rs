@@ -11,7 +11,11 @@
 //! ```
 
 use crate::figure::{Depth, Figure, Sheet};
+use luch_image::codec::{self, Metadata};
+use luch_image::{Image, Rgb, tone::Tone};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// A page: a title, the command that repeats it, and sections.
@@ -23,6 +27,9 @@ pub struct Report {
     pub command: String,
     /// What stands on the page.
     pub sections: Vec<Section>,
+    /// Numbers for other programs, by name; they stand in the JSON alone.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub data: BTreeMap<String, Value>,
 }
 
 /// A part of a page.
@@ -41,6 +48,44 @@ pub enum Section {
     Figure(Figure),
     /// Figures side by side.
     Sheet(Sheet),
+    /// Small pictures side by side.
+    Pictures(Vec<Picture>),
+}
+
+/// A picture of pixels.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Picture {
+    /// What it shows.
+    pub caption: String,
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// A PNG in the letters of base 64 (RFC 4648).
+    pub png: String,
+}
+
+impl Picture {
+    /// Light as `tone` shows it.
+    pub fn new(caption: impl Into<String>, light: &Image<Rgb>, tone: &Tone) -> Self {
+        let bytes = codec::encode_png8(&tone.to_u8(light), &Metadata::new()).unwrap_or_default();
+        Self { caption: caption.into(), width: light.width(), height: light.height(), png: base64(&bytes) }
+    }
+}
+
+/// Bytes in the letters of base 64 (RFC 4648).
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut out = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for group in bytes.chunks(3) {
+        let word =
+            group.iter().enumerate().fold(0u32, |word, (at, &byte)| word | u32::from(byte) << (16 - 8 * at));
+        for place in 0..4 {
+            let letter = LETTERS[(word >> (18 - 6 * place) & 63) as usize];
+            out.push(if place <= group.len() { char::from(letter) } else { '=' });
+        }
+    }
+    out
 }
 
 /// Rows of texts under a heading.
@@ -152,6 +197,19 @@ impl Report {
         self.with(Section::Sheet(sheet))
     }
 
+    /// The same with a row of pictures more.
+    #[must_use]
+    pub fn pictures(self, pictures: Vec<Picture>) -> Self {
+        self.with(Section::Pictures(pictures))
+    }
+
+    /// The same with numbers for other programs.
+    #[must_use]
+    pub fn with_data(mut self, name: impl Into<String>, data: Value) -> Self {
+        self.data.insert(name.into(), data);
+        self
+    }
+
     /// The page; it loads nothing from anywhere and follows the reader's light or dark theme.
     pub fn to_html(&self) -> String {
         let title = escaped(&self.title);
@@ -166,6 +224,9 @@ impl Report {
                 Section::Table(table) => writeln!(out, "{}", html_of(table)),
                 Section::Figure(figure) => writeln!(out, "<figure>{}</figure>", figure.to_svg()),
                 Section::Sheet(sheet) => writeln!(out, "<figure class=\"wide\">{}</figure>", sheet.to_svg()),
+                Section::Pictures(pictures) => {
+                    writeln!(out, "<div class=\"pictures\">{}</div>", html_of_pictures(pictures))
+                }
             };
         }
         if !self.command.is_empty() {
@@ -186,6 +247,9 @@ impl Report {
                 Section::Table(table) => out.push_str(&table.to_text()),
                 Section::Figure(figure) => out.push_str(&figure.to_terminal(columns, depth)),
                 Section::Sheet(sheet) => out.push_str(&sheet.to_terminal(columns, depth)),
+                Section::Pictures(pictures) => {
+                    out.push_str(&format!("{} pictures: see the page, -o x.html\n", pictures.len()));
+                }
             }
             out.push('\n');
         }
@@ -208,9 +272,24 @@ body{font:16px/1.55 system-ui,-apple-system,'Segoe UI',Roboto,sans-serif;max-wid
 h1{font-size:1.7rem;line-height:1.2}h2{font-size:1.2rem;margin-top:2.2rem}\
 figure{margin:1.5rem 0;overflow-x:auto}figure svg{max-width:100%;height:auto}\
 table{border-collapse:collapse;font-variant-numeric:tabular-nums;margin:1rem 0;display:block;overflow-x:auto}\
+.pictures{display:flex;flex-wrap:wrap;gap:1rem;margin:1rem 0}.pictures figure{margin:0;font-size:.85rem}\
+.pictures img{display:block;max-width:100%;image-rendering:pixelated}\
 th,td{padding:.25rem .8rem;border-bottom:1px solid #e6e9ed;text-align:left}td.n,th.n{text-align:right}\
 pre{background:#f4f6f8;padding:.7rem 1rem;overflow-x:auto;border-radius:4px}\
 @media(prefers-color-scheme:dark){body{color:#e8eaed;background:#16181d}th,td{border-color:#2e333b}pre{background:#1c1f25}}";
+
+fn html_of_pictures(pictures: &[Picture]) -> String {
+    let html = |picture: &Picture| {
+        // Small ones twice as large: single pixels are to be seen.
+        let scale = if picture.width <= 192 { 2 } else { 1 };
+        let (width, height) = (u64::from(picture.width) * scale, u64::from(picture.height) * scale);
+        let (caption, png) = (escaped(&picture.caption), escaped(&picture.png));
+        format!(
+            "<figure><img width=\"{width}\" height=\"{height}\" alt=\"{caption}\" src=\"data:image/png;base64,{png}\"><figcaption>{caption}</figcaption></figure>"
+        )
+    };
+    pictures.iter().map(html).collect()
+}
 
 fn html_of(table: &Table) -> String {
     let class = |at: usize| {
@@ -267,5 +346,19 @@ mod tests {
         assert!(report.to_terminal(60, Depth::Letters).contains("Again: luch lab x"));
         let back: Report = serde_json::from_str(&report.to_json()).unwrap();
         assert_eq!(back, report);
+    }
+    #[test]
+    fn pictures_are_in_the_page() {
+        assert_eq!(
+            ["", "f", "fo", "foo", "foob"].map(|text| base64(text.as_bytes())),
+            ["", "Zg==", "Zm8=", "Zm9v", "Zm9vYg=="]
+        );
+        let picture = Picture::new("a \"b\"", &Image::filled(3, 2, Rgb::WHITE), &Tone::default());
+        let report =
+            Report::new("p").pictures(vec![picture]).with_data("x", serde_json::json!({ "y": [1.5] }));
+        let html = report.to_html();
+        assert!(html.contains("src=\"data:image/png;base64,iVBORw0KGgo") && html.contains("a &quot;b&quot;"));
+        assert!(report.to_terminal(60, Depth::Letters).contains("1 pictures"));
+        assert_eq!(serde_json::from_str::<Report>(&report.to_json()).unwrap(), report);
     }
 }
