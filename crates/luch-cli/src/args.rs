@@ -9,9 +9,10 @@ mod render;
 
 pub(crate) use bench::{BenchArgs, BenchVerb, CameraArgs, Choice, RaysArgs};
 pub(crate) use lab::{
-    Chi2Args, ControlArgs, DensityArgs, DimensionsArgs, ExplainArgs, IntegrateArgs, LabArgs, LabOutputArgs,
-    LabVerb, LampArgs, LectureArgs, MeasureArgs, MisArgs, PointsArgs, PrngArgs, ProblemArgs, RouletteArgs,
-    Rules, SlopesArgs, StrataArgs, TruthArgs, WidthArgs,
+    Chi2Args, ControlArgs, CoverageArgs, DensityArgs, DimensionsArgs, ExplainArgs, IntegrateArgs, LabArgs,
+    LabOutputArgs, LabSceneArgs, LabVerb, LampArgs, LectureArgs, MeasureArgs, MisArgs, PointsArgs, PrngArgs,
+    ProblemArgs, ReferenceArgs, RenderStudyArgs, RouletteArgs, Rules, SlopesArgs, StrataArgs, TruthArgs,
+    WidthArgs,
 };
 pub(crate) use mesh::{
     CompareMeshesArgs, ConvertArgs, InfoArgs, MeshArgs, MeshOutputArgs, QueryArgs, RunArgs, SampleArgs,

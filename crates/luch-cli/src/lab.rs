@@ -10,10 +10,12 @@ mod output;
 mod points;
 mod prng;
 mod problem;
+mod render;
 mod saving;
 mod study;
 mod ticker;
 mod truth;
+mod watched;
 
 use crate::args::{LabArgs, LabVerb};
 use crate::failure::{Failure, Outcome};
@@ -39,5 +41,7 @@ pub(crate) fn run(args: &LabArgs) -> Result<Outcome, Failure> {
         LabVerb::Strata(args) => saving::strata(args),
         LabVerb::Truth(args) => truth::run(args),
         LabVerb::Lecture(args) => lecture::run(args),
+        LabVerb::Render(args) => render::run(args),
+        LabVerb::Coverage(args) => render::coverage(args),
     }
 }

@@ -13,6 +13,7 @@ use crate::progress::{self, Alone, Reporter};
 use crate::terminal;
 use luch::render::{Ending, JobEnd, JobPlan, RenderJob, from_settings};
 use plan::Plan;
+pub(crate) use plan::announce;
 use saver::Saver;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};

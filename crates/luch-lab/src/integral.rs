@@ -32,6 +32,7 @@ pub use convergence::{Convergence, Row, SlopeFit, convergence, convergence_figur
 pub use density::{AxisDensity, Density, Drawn, Share};
 pub use domain::{Domain, MOST_DIMENSIONS, Side};
 pub use points::{HashedPoints, Points, SequencePoints};
+pub(crate) use quantile::normal_quantile;
 pub use rule_points::RulePoints;
 pub use suite::{SuiteMember, suite};
 pub use sums::Sums;

@@ -14,6 +14,7 @@
 //! | Which lamps of a scene does a point see, and how much light comes from them? | [`direct_light`] |
 //! | Does a routine draw what its density says? | [`chi_squared`]: all of the renderer's |
 //! | Does the renderer find radiance that is known? | [`truth`]: scenes with closed forms, judged |
+//! | What do samplers do to pictures, and do pictures state their error rightly? | [`rendering`] |
 //! | How far are two pictures apart for those who look? | [`flip`] |
 //! | How does it look? | [`figure`]: SVG, PNG, terminal, CSV, JSON; [`report`]: a page of HTML |
 //!
@@ -45,6 +46,7 @@ pub mod integral;
 pub mod measure;
 pub mod points;
 pub mod problem;
+pub mod rendering;
 pub mod report;
 pub mod slopes;
 pub mod strata;

@@ -13,6 +13,9 @@ pub(crate) use saving::{ControlArgs, MisArgs, RouletteArgs, StrataArgs, WidthArg
 mod truth;
 
 pub(crate) use truth::TruthArgs;
+mod render;
+
+pub(crate) use render::{CoverageArgs, LabSceneArgs, ReferenceArgs, RenderStudyArgs};
 
 use crate::parse;
 use clap::{Args, Subcommand};
@@ -57,6 +60,8 @@ pub(crate) enum LabVerb {
     Strata(StrataArgs),
     Truth(TruthArgs),
     Lecture(LectureArgs),
+    Render(Box<RenderStudyArgs>),
+    Coverage(Box<CoverageArgs>),
     /// A problem by its name.
     #[command(external_subcommand)]
     Problem(Vec<OsString>),

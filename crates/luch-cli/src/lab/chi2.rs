@@ -1,6 +1,6 @@
 //! `luch lab chi2`: every sampling routine against its density.
 
-use super::output::{give, report};
+use super::output::{check, give, report};
 use super::ticker::Ticker;
 use crate::args::Chi2Args;
 use crate::failure::{Failure, Outcome};
@@ -12,6 +12,7 @@ use luch_lab::report::Table;
 use std::collections::BTreeSet;
 
 pub(super) fn run(args: &Chi2Args) -> Result<Outcome, Failure> {
+    check(&args.output)?;
     if args.samples < 1000 {
         return Err(Failure::usage("--samples: fewer than 1000 tell nothing"));
     }

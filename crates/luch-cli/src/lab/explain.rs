@@ -1,6 +1,6 @@
 //! `luch lab explain`: why a pixel is as it is.
 
-use super::output::{give, report};
+use super::output::{check, give, report};
 use crate::args::ExplainArgs;
 use crate::failure::{Failure, Outcome};
 use crate::recipe::Recipe;
@@ -14,6 +14,7 @@ use luch_lab::explain::{
 use luch_lab::report::{Report, Table};
 
 pub(super) fn run(args: &ExplainArgs) -> Result<Outcome, Failure> {
+    check(&args.output)?;
     let loaded = args.parameters.load(&args.file, &luch::formats::Files::disk())?;
     if !args.output.json {
         loaded.notes.iter().for_each(|note| complain(&format!("note: {note}")));

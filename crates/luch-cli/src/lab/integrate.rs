@@ -1,7 +1,7 @@
 //! `luch lab integrate`: any integral.
 
 use super::live::Live;
-use super::output::{give, report};
+use super::output::{check, give, report};
 use crate::args::IntegrateArgs;
 use crate::failure::{Failure, Outcome};
 use crate::interrupt::Interrupt;
@@ -15,6 +15,7 @@ use luch_lab::report::{Report, Table};
 use std::ops::ControlFlow;
 
 pub(super) fn run(args: &IntegrateArgs) -> Result<Outcome, Failure> {
+    check(&args.output)?;
     let mut integral = Integral::new(&args.formula, &args.over)?;
     if let Some(density) = &args.density {
         integral = integral.with_density(density)?;

@@ -1,6 +1,6 @@
 //! `luch lab lamp --scene`: which lamps a point of a scene sees.
 
-use super::output::{give, report};
+use super::output::{check, give, report};
 use super::ticker::Ticker;
 use crate::args::LampArgs;
 use crate::failure::{Failure, Outcome};
@@ -36,6 +36,7 @@ pub(super) fn run(words: &[OsString]) -> Result<Outcome, Failure> {
         let message = format!("--sampler: `{}` makes sets of one size only", args.sampler.name());
         return Err(Failure::usage(message));
     }
+    check(&args.output)?;
     let _interrupt = Interrupt::install()?;
     let loaded = args.parameters.load(&args.scene, &Files::disk())?;
     for warning in &loaded.warnings {

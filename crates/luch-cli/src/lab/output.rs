@@ -2,6 +2,7 @@
 
 use crate::args::LabOutputArgs;
 use crate::failure::{Failure, Outcome};
+use crate::outputs::probe;
 use crate::terminal::{command_line, complain, say};
 use luch::formats::write_atomically;
 use luch_lab::figure::{Depth, PngOptions};
@@ -20,7 +21,10 @@ pub(super) fn report(title: impl Into<String>) -> Report {
 
 /// Refuses files that no page can be written to, before the work is done.
 pub(super) fn check(args: &LabOutputArgs) -> Result<(), Failure> {
-    args.output.iter().try_for_each(|path| format_of(path).map(drop))
+    args.output.iter().try_for_each(|path| {
+        format_of(path)?;
+        probe(path)
+    })
 }
 
 /// The extension of a file, if it is one of ours.

@@ -44,6 +44,8 @@ pub(super) fn run(words: &[OsString]) -> Result<Outcome, Failure> {
             "strata",
             "truth",
             "lecture",
+            "render",
+            "coverage",
         ];
         let known = Problem::NAMES.iter().copied().chain(verbs);
         return Err(Failure::usage(unknown("problem or verb", &args.name, known)));

@@ -184,7 +184,7 @@ fn this_command() -> String {
 }
 
 /// What loading had to say, each sentence once.
-fn announce(loaded: &Loaded) {
+pub(crate) fn announce(loaded: &Loaded) {
     let mut told: Vec<String> = Vec::new();
     for warning in &loaded.warnings {
         let text = warning.to_string();

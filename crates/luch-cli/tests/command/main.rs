@@ -6,6 +6,7 @@ mod compare;
 mod errors;
 mod interrupt;
 mod lab;
+mod lab_render;
 mod merge;
 mod mesh;
 mod outputs;
