@@ -9,7 +9,7 @@
 //! ```
 
 use crate::density::quadrature;
-use crate::figure::{Axis, ErrorBar, Figure, Ink, Marker};
+use crate::figure::{Axis, ErrorBar, Figure, Ink};
 use crate::integral::{Points, RulePoints};
 use crate::points::Rule;
 use crate::problem::COS77;
@@ -200,10 +200,10 @@ pub fn strata_figure(problem: StrataProblem, rows: &[StrataRow]) -> Figure {
         .with_y(Axis::log10("variance of the estimate"))
         .dashed("independent points", Ink::Muted, line(|row| row.independent))
         .line("one in each cell, exact", Ink::Blue, line(|row| row.exact))
-        .marked("measured", Ink::Vermilion, Marker::Disc, line(|row| row.measured))
+        .points("measured", Ink::Vermilion, line(|row| row.measured), 7.0)
         .errors("", Ink::Vermilion, bars.collect());
     match rows.last() {
-        Some(last) => figure.reference(slope, [last.cells as f64, 0.6 * last.exact], exponent),
+        Some(last) => figure.reference(slope, [last.cells as f64, 0.3 * last.exact], exponent),
         None => figure,
     }
 }

@@ -31,8 +31,13 @@ pub(super) fn places(
     let widest = difference.iter().filter(|x| x.is_finite()).fold(0.02f64, |most, x| most.max(x.abs()));
     let told: Vec<f64> = grid.expected.iter().copied().filter(|count| *count >= TOO_FEW).collect();
     let noise = (told.iter().map(|count| 1.0 / count).sum::<f64>() / told.len().max(1) as f64).sqrt();
+    // A lobe with long tails is seen by its logarithm only.
+    let middle = expected.iter().sum::<f64>() / expected.len() as f64;
+    let is_peaked = greatest > 20.0 * middle;
+    let ends = if is_peaked { [1e-4 * greatest, greatest] } else { [0.0, greatest] };
     let panel = |title: &str, values: Vec<f64>, range: [f64; 2], map: ColorMap| {
         let raster = Raster {
+            is_logarithmic: is_peaked && map == ColorMap::Night,
             low: grid.area.low,
             high: grid.area.high,
             range: Some(range),
@@ -45,8 +50,8 @@ pub(super) fn places(
             .heat("", raster)
     };
     let figures = vec![
-        panel("Samples", observed, [0.0, greatest], ColorMap::Night),
-        panel("Stated density, integrated", expected, [0.0, greatest], ColorMap::Night),
+        panel("Samples", observed, ends, ColorMap::Night),
+        panel("Stated density, integrated", expected, ends, ColorMap::Night),
         panel("Samples over density − 1", difference, [-widest, widest], ColorMap::Signed),
     ];
     Some(Sheet::new(title, 3, figures).with_caption(format!(
