@@ -283,7 +283,7 @@ fn running(samples: &[[f64; 3]]) -> Vec<Running> {
         estimate.add(luminance(*light));
         let is_told = [count, count * 2]
             .iter()
-            .any(|n: &u64| n.is_power_of_two() || (n % 3 == 0 && (n / 3).is_power_of_two()));
+            .any(|n: &u64| n.is_power_of_two() || (n.is_multiple_of(3) && (n / 3).is_power_of_two()));
         if (is_told || count as usize == samples.len())
             && let Some(mean) = estimate.mean()
         {

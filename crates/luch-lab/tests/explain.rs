@@ -68,7 +68,7 @@ fn an_enclosure_gives_a_half_a_quarter_an_eighth() {
             (light + part.light[0], variance + 2.0 * part.variance)
         });
         let error = (variance / 4096.0).sqrt();
-        let truth = 3.0 * 0.5_f64.powi(depth as i32);
+        let truth = 3.0 * libm::pow(0.5, f64::from(depth));
         assert!((light - truth).abs() <= 4.0 * error + 1e-5 && error < 0.02, "{depth}: {light} ± {error}");
     }
     let lamp = found.by_technique.iter().find(|part| part.kind == (0, Technique::Specular));

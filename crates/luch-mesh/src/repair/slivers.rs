@@ -305,7 +305,7 @@ mod tests {
             let corners = mesh.corners(t).map(Vec3::as_dvec3);
             let near = 0.2 * height / least_height(corners);
             // A needle's point is near to a corner, a cap's to a side.
-            let other = if hash::word(1, t as u64) % 2 == 0 { near } else { 0.4 };
+            let other = if hash::word(1, t as u64).is_multiple_of(2) { near } else { 0.4 };
             let place = corners[0] * (1.0 - near - other) + corners[1] * other + corners[2] * near;
             let new = poked.positions.len() as u32;
             poked.positions.push(place.as_vec3());
