@@ -187,7 +187,7 @@ fn a_point_of_a_scene_sees_its_lamps() {
     assert!(one.len() == 1 && one[0][0] == "sky", "{one:?}");
     place.write(
         "dark.kdl",
-        "luch 1\nmaterial \"m\" { diffuse 0.5 }\nobject material=\"m\" { sphere radius=1 }\n",
+        "luch 1\nmaterial \"m\" { diffuse 0.5 }\nobject material=\"m\" { sphere radius=1 }\nenvironment 0\n",
     );
     assert!(place.fails("lab lamp --scene dark.kdl --at 0,0,0", 1).err.contains("no lamp"));
     let far = place.fails("lab lamp --scene scene.kdl --at 0,0,0 --light lmp", 2);

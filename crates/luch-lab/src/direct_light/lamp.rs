@@ -141,8 +141,10 @@ impl Lamp {
                 all.push(Self { name: format!("{kind} {}", index + 1), what: What::Light { alone, is_sun } });
             }
         }
+        // A black sky is none.
         if scene.environment.is_some()
             && let Some(alone) = alone(scene, |bare| bare.environment = scene.environment)
+            && alone.lights.count() > 0
         {
             all.push(Self { name: "sky".to_owned(), what: What::Sky { alone } });
         }
