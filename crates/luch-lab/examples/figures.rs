@@ -1,4 +1,4 @@
-//! Draws one figure of every kind into a folder: `cargo run -p luch-lab --example gallery -- FOLDER`.
+//! Draws one figure of every kind into a folder: `cargo run -p luch-lab --example figures -- FOLDER`.
 
 use luch_lab::density::{CENTERED, dimensions, dimensions_figure, normal_scan, square_sheet};
 use luch_lab::figure::*;
