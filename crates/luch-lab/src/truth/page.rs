@@ -57,7 +57,7 @@ pub fn z_scores(rows: &[Row]) -> Figure {
     }
     let count = families.len().max(1) as f64;
     let start = Figure::new("How far off, in standard errors")
-        .with_caption("Every point is a case by one integrator with one sequence. If all are right, one in 16 000 lies outside the lines.")
+        .with_caption("Every point is a case by one integrator with one sequence. If all are right, about one in 3000 lies outside the lines.")
         .with_x(Axis::linear("families, one after the other").with_range(0.0, count))
         .with_y(Axis::linear("z").with_range(-reach, reach))
         .level("4", DISTANCE)
