@@ -80,7 +80,7 @@ fn glass_without_an_inside_is_told() {
     place.write("closed.kdl", &scene("torus"));
     let said = place.done("check open.kdl").out;
     assert!(
-        said.contains("\"bowl\"") && said.contains("no closed body") && said.contains("320 border"),
+        said.contains("\"bowl\"") && said.contains("no closed body") && said.contains("160 border"),
         "{said}"
     );
     assert!(!place.done("check closed.kdl").out.contains("no closed body"));
