@@ -43,6 +43,7 @@ enum Kind {
     Lamp { lamp: Lamp, quantity: Quantity },
     Edge { angle: f64, offset: f64 },
     Glossy { glossiness: f64 },
+    Furnace { albedo: f64 },
 }
 
 /// What a run found.
@@ -86,12 +87,15 @@ pub struct Progress {
 /// Independent randomisations of a run.
 const REPLICATES: u64 = 16;
 
+/// Most scatterings of a path in the furnace.
+const SCATTERINGS: usize = 32;
+
 /// ∫cos⁷⁷ over the half turn: √π Γ(39)/Γ(39.5).
 pub const COS77: f64 = 0.284_730_875_959_477_4;
 
 impl Problem {
     /// Names of all problems that need no parameters.
-    pub const NAMES: [&'static str; 15] = [
+    pub const NAMES: [&'static str; 16] = [
         "pi",
         "acute",
         "obtuse",
@@ -100,6 +104,7 @@ impl Problem {
         "obtuse-ball",
         "cos77",
         "cos77-normal",
+        "furnace",
         "lamp",
         "lamp-irradiance",
         "lamp-rectangle",
@@ -127,6 +132,7 @@ impl Problem {
             "obtuse-ball" => Self::triangle(TriangleDomain::Ball, Wanted::Obtuse),
             "cos77" => Self::cos77("uniform").ok()?,
             "cos77-normal" => Self::cos77("normal(0, 0.15)").ok()?,
+            "furnace" => Self::furnace(0.5),
             "lamp" => Self::lamp(half(), Quantity::VisibleFraction),
             "lamp-irradiance" => Self::lamp(half(), Quantity::FormFactor),
             "lamp-rectangle" => Self::lamp(Lamp::over_rectangle([0.6, 0.6]), Quantity::VisibleFraction),
@@ -207,12 +213,28 @@ impl Problem {
         }
     }
 
+    /// The radiance in a closed furnace whose walls emit 1 and reflect this part of what arrives, by paths that roulette ends: a path
+    /// of k scatterings has seen k + 1. The albedo is cut to 0 … 0.7, paths to 32 scatterings, and the truth to as many terms of the
+    /// geometric series.
+    pub fn furnace(albedo: f64) -> Self {
+        let albedo = if albedo.is_nan() { 0.5 } else { albedo.clamp(0.0, 0.7) };
+        Self {
+            name: "furnace".into(),
+            description: format!(
+                "the radiance in a closed furnace of emission 1 and albedo {albedo}: 1/(1−a), by paths that end at random"
+            ),
+            truth: (1.0 - libm::pow(albedo, SCATTERINGS as f64 + 1.0)) / (1.0 - albedo),
+            kind: Kind::Furnace { albedo },
+        }
+    }
+
     /// How many numbers a sample takes.
     pub fn dimensions(&self) -> usize {
         match &self.kind {
             Kind::Pi | Kind::Lamp { .. } | Kind::Edge { .. } | Kind::Glossy { .. } => 2,
             Kind::Triangle { domain, .. } => 3 * domain.dimensions(),
             Kind::Cos77(_) => 1,
+            Kind::Furnace { .. } => SCATTERINGS,
         }
     }
 
@@ -242,6 +264,7 @@ impl Problem {
                 let [x, y] = glossy_place(*glossiness, [u[0], u[1]]);
                 (x * x + y * y) / (radius * radius)
             }
+            Kind::Furnace { albedo } => 1.0 + u.iter().take_while(|u| **u < *albedo).count() as f64,
         }
     }
 
@@ -312,6 +335,7 @@ impl Problem {
             Kind::Lamp { quantity: Quantity::VisibleFraction, .. } => "A point of the lamp is seen if nothing stands between; the exact share is a polygon cut by the shadow.".to_owned(),
             Kind::Lamp { quantity: Quantity::FormFactor, .. } => "Parts of the lamp count by the cosines and the distance, so the share of the light is not the share of the area.".to_owned(),
             Kind::Edge { .. } => "Each point of the pixel is on one side of the edge or the other; the mean is the shade that a smooth edge needs.".to_owned(),
+            Kind::Furnace { .. } => "Each scattering survives with the probability of the albedo, so what is left carries as much as before: roulette costs no weight, only variance. Nobody needs to know beforehand how long paths will be.".to_owned(),
             Kind::Glossy { .. } => "The radius is the root of a uniform number times R: without the root the points would crowd in the middle.".to_owned(),
         };
         format!(

@@ -41,6 +41,7 @@ pub(super) fn of(problem: &Problem, points: &dyn Points) -> Figure {
                 .points("inside", Ink::Blue, inside, 3.0)
                 .points("outside", Ink::Muted, outside, 3.0)
         }
+        Kind::Furnace { albedo } => furnace(problem, *albedo, &samples),
         Kind::Glossy { glossiness } => {
             let radius = glossy_radius(*glossiness);
             let places = samples.iter().map(|u| glossy_place(*glossiness, [u[0], u[1]])).collect();
@@ -103,6 +104,24 @@ fn triangles(problem: &Problem, domain: TriangleDomain, samples: &[&[f64]]) -> F
         }
     }
     figure
+}
+
+/// How many paths scatter how often, beside the geometric law.
+fn furnace(problem: &Problem, albedo: f64, samples: &[&[f64]]) -> Figure {
+    const SHOWN_SCATTERINGS: usize = 12;
+    let mut counts = [0.0; SHOWN_SCATTERINGS];
+    for u in samples {
+        if let Some(count) = counts.get_mut((problem.sample(u) - 1.0) as usize) {
+            *count += 1.0 / samples.len() as f64;
+        }
+    }
+    let edges = (0..=SHOWN_SCATTERINGS).map(|k| k as f64 - 0.5).collect();
+    let law = (0..SHOWN_SCATTERINGS).map(|k| [k as f64, (1.0 - albedo) * libm::pow(albedo, k as f64)]);
+    Figure::new("How often paths scatter")
+        .with_x(Axis::linear("scatterings"))
+        .with_y(Axis::linear("part of the paths"))
+        .bars("paths", Ink::Sky, edges, counts.to_vec())
+        .points("(1−a)aᵏ", Ink::Vermilion, law.collect(), 6.0)
 }
 
 fn bell(integral: &Integral, samples: &[&[f64]]) -> Figure {
